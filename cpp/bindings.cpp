@@ -1,0 +1,185 @@
+// The seam to Python: arrays in, arrays out. All that knows of Python stands here.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/string.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+
+#include "delaunay2.hpp"
+#include "output2.hpp"
+#include "parallel.hpp"
+#include "predicates2.hpp"
+#include "selftest.hpp"
+#include "spatial_sort2.hpp"
+
+namespace nb = nanobind;
+using namespace alphamesh;
+
+namespace {
+
+struct TooManyPoints : std::length_error {
+  using std::length_error::length_error;
+};
+
+using Points2 = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+template <std::size_t K>
+using Tuples2 = nb::ndarray<const double, nb::shape<-1, K, 2>, nb::c_contig, nb::device::cpu>;
+
+// Hands a buffer over to NumPy without a copy.
+template <class T>
+nb::object array(Buffer<T>&& buffer, std::size_t columns = 1) {
+  auto* owner = new Buffer<T>(std::move(buffer));
+  nb::capsule capsule(owner, [](void* p) noexcept { delete static_cast<Buffer<T>*>(p); });
+  const std::size_t shape[2] = {owner->size() / columns, columns};
+  return nb::cast(nb::ndarray<nb::numpy, T>(owner->data(), columns == 1 ? 1 : 2, shape, capsule));
+}
+
+// Below this the work is over before anybody could interrupt it.
+constexpr std::size_t kWatched = 50000;
+
+// Runs work() without the GIL; on large clouds in a thread of its own, while this one
+// looks after signals (Ctrl-C) and the progress callback.
+template <class Work>
+void run_watched(Job& job, std::size_t size, const nb::object& progress, Work&& work) {
+  if (size < kWatched) {
+    const nb::gil_scoped_release released;
+    work();
+    return;
+  }
+  std::mutex lock;
+  std::condition_variable finished;
+  bool done = false;
+  std::exception_ptr error;
+  std::thread worker([&] {
+    try {
+      work();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    const std::lock_guard<std::mutex> guard(lock);
+    done = true;
+    finished.notify_one();
+  });
+  bool stop = false;
+  for (;;) {
+    {
+      const nb::gil_scoped_release released;
+      std::unique_lock<std::mutex> guard(lock);
+      if (stop) finished.wait(guard, [&] { return done; });
+      else finished.wait_for(guard, std::chrono::milliseconds(50), [&] { return done; });
+      if (done) break;
+    }
+    bool failed = PyErr_CheckSignals() != 0;
+    if (!failed && !progress.is_none()) {
+      PyObject* result = PyObject_CallFunction(progress.ptr(), "d", job.progress());
+      Py_XDECREF(result);
+      failed = result == nullptr;
+    }
+    if (failed) {
+      stop = true;  // the Python error stays set; nothing below calls Python before it is raised
+      job.cancel();
+      const nb::gil_scoped_release released;
+      worker.join();
+      break;
+    }
+  }
+  if (worker.joinable()) {
+    const nb::gil_scoped_release released;
+    worker.join();
+  }
+  if (stop) throw nb::python_error();
+  if (error) std::rethrow_exception(error);
+  if (!progress.is_none()) progress(1.0);
+}
+
+// Small clouds are done before a second thread has started.
+int useful_threads(int threads, std::size_t n) { return n < 10000 ? 1 : threads; }
+
+void check_size(std::size_t n) {
+  if (n > kMaxPoints2) throw TooManyPoints("at most 2^27 points");
+}
+
+nb::object representative_of(SpatialOrder2& order) {
+  return order.representative.size() == 0 ? nb::none() : array(std::move(order.representative));
+}
+
+nb::tuple alpha2(const Points2& points, int threads, const nb::object& progress) {
+  const std::size_t n = points.shape(0);
+  check_size(n);
+  Job job(useful_threads(threads, n));
+  SpatialOrder2 order;
+  Filtration2 f;
+  run_watched(job, n, progress, [&] {
+    order = spatial_order2(points.data(), n, job);
+    Mesh2 mesh = delaunay2(order, job);
+    f = filtration2(order, mesh, job);
+  });
+  return nb::make_tuple(representative_of(order), array(std::move(f.triangles), 3),
+                        array(std::move(f.triangle_radii)), array(std::move(f.edges), 2),
+                        array(std::move(f.edge_radii)), array(std::move(f.edge_triangles), 2));
+}
+
+nb::tuple delaunay2_py(const Points2& points, int threads, const nb::object& progress) {
+  const std::size_t n = points.shape(0);
+  check_size(n);
+  Job job(useful_threads(threads, n));
+  SpatialOrder2 order;
+  Triangulation2 t;
+  run_watched(job, n, progress, [&] {
+    order = spatial_order2(points.data(), n, job);
+    Mesh2 mesh = delaunay2(order, job);
+    t = triangulation2(order, mesh, job);
+  });
+  return nb::make_tuple(representative_of(order), array(std::move(t.triangles), 3),
+                        array(std::move(t.neighbors), 3), array(std::move(t.edges), 2));
+}
+
+Point2 point(const double* xy) { return {xy[0], xy[1]}; }
+
+template <std::size_t K, class Sign>
+nb::object signs(const Tuples2<K>& tuples, Sign&& sign) {
+  const std::size_t n = tuples.shape(0);
+  Buffer<std::int8_t> out(n);
+  {
+    const nb::gil_scoped_release released;
+    for (std::size_t i = 0; i < n; ++i) {
+      out[i] = static_cast<std::int8_t>(sign(tuples.data() + 2 * K * i));
+    }
+  }
+  return array(std::move(out));
+}
+
+nb::object orient2(const Tuples2<3>& tuples) {
+  return signs<3>(tuples, [](const double* t) { return orient(point(t), point(t + 2), point(t + 4), Lattice()); });
+}
+
+nb::object dot2(const Tuples2<3>& tuples) {
+  return signs<3>(tuples, [](const double* t) { return dot(point(t), point(t + 2), point(t + 4), Lattice()); });
+}
+
+nb::object incircle2(const Tuples2<4>& tuples, bool perturb) {
+  return signs<4>(tuples, [perturb](const double* t) {
+    const Point2 a = point(t), b = point(t + 2), c = point(t + 4), d = point(t + 6);
+    const int s = in_circle_or_zero(a, b, c, d, Lattice());
+    return s != 0 || !perturb ? s : in_circle_perturbed(a, b, c, d, Lattice());
+  });
+}
+
+}  // namespace
+
+NB_MODULE(_core, m) {
+  nb::exception<BadCoordinates>(m, "BadCoordinates", PyExc_ValueError);
+  nb::exception<TooManyPoints>(m, "TooManyPoints", PyExc_ValueError);
+  m.def("alpha2", &alpha2, nb::arg("points"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("delaunay2", &delaunay2_py, nb::arg("points"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("orient2", &orient2, nb::arg("points"));
+  m.def("dot2", &dot2, nb::arg("points"));
+  m.def("incircle2", &incircle2, nb::arg("points"), nb::arg("perturb"));
+  m.def("self_test", &self_test);
+}
