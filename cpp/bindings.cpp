@@ -14,7 +14,10 @@
 #include "delaunay2.hpp"
 #include "output2.hpp"
 #include "parallel.hpp"
+#include "persistence2.hpp"
 #include "predicates2.hpp"
+#include "restricted2.hpp"
+#include "rings2.hpp"
 #include "selftest.hpp"
 #include "spatial_sort2.hpp"
 
@@ -71,8 +74,10 @@ void run_watched(Job& job, std::size_t size, const nb::object& progress, Work&& 
     {
       const nb::gil_scoped_release released;
       std::unique_lock<std::mutex> guard(lock);
-      if (stop) finished.wait(guard, [&] { return done; });
-      else finished.wait_for(guard, std::chrono::milliseconds(50), [&] { return done; });
+      if (stop)
+        finished.wait(guard, [&] { return done; });
+      else
+        finished.wait_for(guard, std::chrono::milliseconds(50), [&] { return done; });
       if (done) break;
     }
     bool failed = PyErr_CheckSignals() != 0;
@@ -125,6 +130,81 @@ nb::tuple alpha2(const Points2& points, int threads, const nb::object& progress)
                         array(std::move(f.edge_radii)), array(std::move(f.edge_triangles), 2));
 }
 
+using Ids = nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Values = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Flags = nb::ndarray<const bool, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+ComplexView2 view_of(const Points2& points, const Ids& triangles, const Ids& edges,
+                     const Ids& edge_triangles) {
+  return {points.data(), points.shape(0), triangles.data(),     triangles.shape(0),
+          edges.data(),  edges.shape(0),  edge_triangles.data()};
+}
+
+nb::object triangle_edges2_py(const Points2& points, const Ids& triangles, const Ids& edges,
+                              const Ids& edge_triangles, int threads) {
+  const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
+  Job job(useful_threads(threads, view.n));
+  Buffer<std::int32_t> out;
+  run_watched(job, view.n, nb::none(), [&] { out = triangle_edges2(view, job); });
+  return array(std::move(out), 3);
+}
+
+nb::tuple rings2_py(const Points2& points, const Ids& triangles, const Ids& edges,
+                    const Ids& edge_triangles, int threads) {
+  const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
+  Job job(useful_threads(threads, view.n));
+  Rings2 rings;
+  run_watched(job, view.n, nb::none(),
+              [&] { rings = rings2(view, triangle_edges2(view, job), job); });
+  return nb::make_tuple(array(std::move(rings.offset)), array(std::move(rings.edge)),
+                        array(std::move(rings.triangle)));
+}
+
+nb::tuple persistence2_py(const Points2& points, const Ids& triangles, const Values& triangle_radii,
+                          const Ids& edges, const Values& edge_radii, const Ids& edge_triangles,
+                          int threads, const nb::object& progress) {
+  const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
+  Job job(useful_threads(threads, view.n));
+  Pairs2 pairs;
+  run_watched(job, view.n, progress,
+              [&] { pairs = persistence2(view, triangle_radii.data(), edge_radii.data(), job); });
+  return nb::make_tuple(array(std::move(pairs.components), 2), array(std::move(pairs.loops), 2));
+}
+
+nb::object points_array(Buffer<Point2>&& buffer) {
+  auto* owner = new Buffer<Point2>(std::move(buffer));
+  nb::capsule capsule(owner, [](void* p) noexcept { delete static_cast<Buffer<Point2>*>(p); });
+  static_assert(sizeof(Point2) == 2 * sizeof(double));
+  const std::size_t shape[2] = {owner->size(), 2};
+  return nb::cast(
+      nb::ndarray<nb::numpy, double>(reinterpret_cast<double*>(owner->data()), 2, shape, capsule));
+}
+
+nb::object circumcentres2_py(const Points2& points, const Ids& triangles, int threads) {
+  const ComplexView2 view{
+      points.data(), points.shape(0), triangles.data(), triangles.shape(0), nullptr, 0, nullptr};
+  Job job(useful_threads(threads, view.n));
+  Buffer<Point2> out;
+  run_watched(job, view.n, nb::none(), [&] { out = circumcentres2(view, job); });
+  return points_array(std::move(out));
+}
+
+nb::tuple restricted2_py(const Points2& points, const Ids& triangles, const Values& triangle_radii,
+                         const Ids& edges, const Values& edge_radii, const Ids& edge_triangles,
+                         const Flags& active, double radius, int threads,
+                         const nb::object& progress) {
+  const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
+  Job job(useful_threads(threads, view.n));
+  RestrictedCells2 c;
+  run_watched(job, view.n, progress, [&] {
+    c = restricted2(view, triangle_radii.data(), edge_radii.data(), active.data(), radius, job);
+  });
+  return nb::make_tuple(array(std::move(c.offset)), points_array(std::move(c.start)),
+                        points_array(std::move(c.end)), array(std::move(c.neighbor)),
+                        array(std::move(c.angles), 2), array(std::move(c.area)),
+                        array(std::move(c.segment_length)), array(std::move(c.arc_length)));
+}
+
 nb::tuple delaunay2_py(const Points2& points, int threads, const nb::object& progress) {
   const std::size_t n = points.shape(0);
   check_size(n);
@@ -142,25 +222,38 @@ nb::tuple delaunay2_py(const Points2& points, int threads, const nb::object& pro
 
 Point2 point(const double* xy) { return {xy[0], xy[1]}; }
 
+// Calls sign() on each tuple of K points, brought into the range of exact products.
 template <std::size_t K, class Sign>
 nb::object signs(const Tuples2<K>& tuples, Sign&& sign) {
   const std::size_t n = tuples.shape(0);
   Buffer<std::int8_t> out(n);
   {
     const nb::gil_scoped_release released;
+    Job job(1);
+    double scaled[2 * K];
     for (std::size_t i = 0; i < n; ++i) {
-      out[i] = static_cast<std::int8_t>(sign(tuples.data() + 2 * K * i));
+      const double* t = tuples.data() + 2 * K * i;
+      const int exponent = range_exponent2(t, K, job);
+      if (exponent != 0) {
+        const PowerOfTwo factor(exponent);
+        for (std::size_t k = 0; k < 2 * K; ++k) scaled[k] = factor * t[k];
+        t = scaled;
+      }
+      out[i] = static_cast<std::int8_t>(sign(t));
     }
   }
   return array(std::move(out));
 }
 
 nb::object orient2(const Tuples2<3>& tuples) {
-  return signs<3>(tuples, [](const double* t) { return orient(point(t), point(t + 2), point(t + 4), Lattice()); });
+  return signs<3>(tuples, [](const double* t) {
+    return orient(point(t), point(t + 2), point(t + 4), Lattice());
+  });
 }
 
 nb::object dot2(const Tuples2<3>& tuples) {
-  return signs<3>(tuples, [](const double* t) { return dot(point(t), point(t + 2), point(t + 4), Lattice()); });
+  return signs<3>(
+      tuples, [](const double* t) { return dot(point(t), point(t + 2), point(t + 4), Lattice()); });
 }
 
 nb::object incircle2(const Tuples2<4>& tuples, bool perturb) {
@@ -177,7 +270,21 @@ NB_MODULE(_core, m) {
   nb::exception<BadCoordinates>(m, "BadCoordinates", PyExc_ValueError);
   nb::exception<TooManyPoints>(m, "TooManyPoints", PyExc_ValueError);
   m.def("alpha2", &alpha2, nb::arg("points"), nb::arg("threads"), nb::arg("progress").none());
-  m.def("delaunay2", &delaunay2_py, nb::arg("points"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("delaunay2", &delaunay2_py, nb::arg("points"), nb::arg("threads"),
+        nb::arg("progress").none());
+  m.def("triangle_edges2", &triangle_edges2_py, nb::arg("points"), nb::arg("triangles"),
+        nb::arg("edges"), nb::arg("edge_triangles"), nb::arg("threads"));
+  m.def("rings2", &rings2_py, nb::arg("points"), nb::arg("triangles"), nb::arg("edges"),
+        nb::arg("edge_triangles"), nb::arg("threads"));
+  m.def("circumcentres2", &circumcentres2_py, nb::arg("points"), nb::arg("triangles"),
+        nb::arg("threads"));
+  m.def("restricted2", &restricted2_py, nb::arg("points"), nb::arg("triangles"),
+        nb::arg("triangle_radii"), nb::arg("edges"), nb::arg("edge_radii"),
+        nb::arg("edge_triangles"), nb::arg("active"), nb::arg("radius"), nb::arg("threads"),
+        nb::arg("progress").none());
+  m.def("persistence2", &persistence2_py, nb::arg("points"), nb::arg("triangles"),
+        nb::arg("triangle_radii"), nb::arg("edges"), nb::arg("edge_radii"),
+        nb::arg("edge_triangles"), nb::arg("threads"), nb::arg("progress").none());
   m.def("orient2", &orient2, nb::arg("points"));
   m.def("dot2", &dot2, nb::arg("points"));
   m.def("incircle2", &incircle2, nb::arg("points"), nb::arg("perturb"));

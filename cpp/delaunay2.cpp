@@ -41,7 +41,7 @@ class Builder {
   struct Seam {
     Id a, b;
     Id below;
-    Id left, right;    // ghosts, -1 if that side is a single point
+    Id left, right;  // ghosts, -1 if that side is a single point
     Id left_tip, right_tip;
   };
 
@@ -57,7 +57,7 @@ class Builder {
     m_[t + 1] = u;
     m_[t + 2] = Mesh2::kInfinity;
   }
-  Id ghost_after(Id g) const { return Mesh2::base(twin(g + 2)); }   // counter-clockwise
+  Id ghost_after(Id g) const { return Mesh2::base(twin(g + 2)); }  // counter-clockwise
   Id ghost_before(Id g) const { return Mesh2::base(twin(g + 1)); }
 
   static bool precedes(Point2 a, Point2 b, Axis axis) {
@@ -245,7 +245,8 @@ void Builder::zip(Seam& s) {
     const bool right = s.right >= 0 && turn(s.a, s.b, s.right_tip) > 0;
     if (right) trim_right(s);
     if (!left && !right) return;
-    if (!left || (right && in_circle(p_[s.a], p_[s.b], p_[s.left_tip], p_[s.right_tip], lattice_))) {
+    if (!left ||
+        (right && in_circle(p_[s.a], p_[s.b], p_[s.left_tip], p_[s.right_tip], lattice_))) {
       const Id g = s.right;  // (b, tip, infinity)
       s.right = ghost_before(g);
       m_[g + 2] = s.a;
@@ -347,7 +348,8 @@ Mesh2 delaunay2(SpatialOrder2& order, Job& job) {
     job.advance(0.7 * static_cast<double>(nodes[i].hi - nodes[i].lo) / static_cast<double>(n));
     while (i != 0) {
       i = nodes[i].parent;
-      if (missing[i].fetch_sub(1, std::memory_order_acq_rel) == 2) return;  // the other half is not done
+      if (missing[i].fetch_sub(1, std::memory_order_acq_rel) == 2)
+        return;  // the other half is not done
       job.poll();
       nodes[i].piece = builder.merge(nodes[nodes[i].child[0]].piece, nodes[nodes[i].child[1]].piece,
                                      nodes[i].cut.at, nodes[i].cut.axis);

@@ -34,7 +34,9 @@ struct Mesh2 {
   std::int32_t twin(std::int32_t h) const { return slot[static_cast<std::size_t>(h) + 4]; }
   // Ghosts follow the hull counter-clockwise.
   std::int32_t ghost_after(std::int32_t g) const { return base(twin(g + 2)); }
-  bool is_ghost(std::int32_t h) const { return slot[static_cast<std::size_t>(h | 7) - 5] == kInfinity; }
+  bool is_ghost(std::int32_t h) const {
+    return slot[static_cast<std::size_t>(h | 7) - 5] == kInfinity;
+  }
 };
 
 // Divide and conquer (Guibas & Stolfi 1985) along the cuts of the Morton order (after

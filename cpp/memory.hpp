@@ -17,7 +17,9 @@ namespace alphamesh {
 // arrays ask for huge pages where the system has them.
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
-inline std::size_t alignment_for(std::size_t bytes) { return bytes >= 2 * kHugePage ? kHugePage : 64; }
+inline std::size_t alignment_for(std::size_t bytes) {
+  return bytes >= 2 * kHugePage ? kHugePage : 64;
+}
 
 inline void* allocate(std::size_t bytes) {
   const std::size_t align = alignment_for(bytes);
@@ -37,7 +39,8 @@ class Buffer {
   explicit Buffer(std::size_t n) : size_(n) {
     if (n != 0) data_ = static_cast<T*>(allocate(n * sizeof(T)));
   }
-  Buffer(Buffer&& o) noexcept : data_(std::exchange(o.data_, nullptr)), size_(std::exchange(o.size_, 0)) {}
+  Buffer(Buffer&& o) noexcept
+      : data_(std::exchange(o.data_, nullptr)), size_(std::exchange(o.size_, 0)) {}
   Buffer& operator=(Buffer&& o) noexcept {
     std::swap(data_, o.data_);
     std::swap(size_, o.size_);

@@ -45,7 +45,8 @@ std::vector<std::size_t> number_parts(const Mesh2& mesh, const Parts& parts) {
 // Calls use(t, id) for each triangle of a part; ghosts get the id -1. Ids are kept in
 // the spare slot 8t + 3. Returns the number of edges that the part writes.
 template <class Use>
-std::size_t number_triangles(Mesh2& mesh, const Parts& parts, std::size_t part, std::size_t first, Use&& use) {
+std::size_t number_triangles(Mesh2& mesh, const Parts& parts, std::size_t part, std::size_t first,
+                             Use&& use) {
   auto id = static_cast<Id>(first);
   std::size_t edges = 0;
   Id owned[3];
@@ -79,10 +80,9 @@ void write_edge(const Id* row, Id u, Id v, Id* out) {
 }
 
 // Writes the triangles of a part and returns how many edges it will write.
-std::vector<std::size_t> write_triangles(const SpatialOrder2& order, Mesh2& mesh, const Parts& parts,
-                                         const std::vector<std::size_t>& first, Filtration2& out,
-                                         Job& job) {
-  const PowerOfTwo unscale(-order.exponent);
+std::vector<std::size_t> write_triangles(const SpatialOrder2& order, Mesh2& mesh,
+                                         const Parts& parts, const std::vector<std::size_t>& first,
+                                         Filtration2& out, Job& job) {
   const Id* row = order.row.data();
   const Point2* p = order.points.data();
   std::vector<std::size_t> edges(parts.count() + 1, 0);
@@ -90,23 +90,24 @@ std::vector<std::size_t> write_triangles(const SpatialOrder2& order, Mesh2& mesh
     TriangleBlock block;
     std::size_t slot[TriangleBlock::kSize], written = first[part];
     auto flush = [&] {
-      block.measure(order.lattice);
+      block.measure(order.lattice, order.exponent);
       for (std::size_t i = 0; i < block.count; ++i) {
-        out.triangle_radii[written + i] = unscale * block.radius[i];
+        out.triangle_radii[written + i] = block.radius[i];
         mesh.slot[slot[i] + 7] = block.obtuse[i];
       }
       written += block.count;
       block.count = 0;
     };
-    edges[part + 1] = number_triangles(mesh, parts, part, first[part], [&](std::size_t t, std::size_t id) {
-      const Id* v = &mesh.slot[8 * t];
-      slot[block.count] = 8 * t;
-      block.push(p[v[0]], p[v[1]], p[v[2]]);
-      if (block.count == TriangleBlock::kSize) flush();
-      Id* to = &out.triangles[3 * id];
-      for (int i = 0; i < 3; ++i) to[i] = row[v[i]];
-      sort3(to);
-    });
+    edges[part + 1] =
+        number_triangles(mesh, parts, part, first[part], [&](std::size_t t, std::size_t id) {
+          const Id* v = &mesh.slot[8 * t];
+          slot[block.count] = 8 * t;
+          block.push(p[v[0]], p[v[1]], p[v[2]]);
+          if (block.count == TriangleBlock::kSize) flush();
+          Id* to = &out.triangles[3 * id];
+          for (int i = 0; i < 3; ++i) to[i] = row[v[i]];
+          sort3(to);
+        });
     flush();
     job.advance(0.15 / static_cast<double>(parts.count()));
   });
@@ -118,7 +119,11 @@ std::vector<std::size_t> write_triangles(const SpatialOrder2& order, Mesh2& mesh
 class EdgeWriter {
  public:
   EdgeWriter(const SpatialOrder2& order, const Mesh2& mesh, Filtration2& out)
-      : p_(order.points.data()), row_(order.row.data()), m_(mesh.slot.data()), unscale_(-order.exponent), out_(out) {}
+      : p_(order.points.data()),
+        row_(order.row.data()),
+        m_(mesh.slot.data()),
+        unscale_(-order.exponent),
+        out_(out) {}
 
   void write(const Id* h, std::size_t count, std::size_t e) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -127,7 +132,8 @@ class EdgeWriter {
       block_.dy[i] = a.y - b.y;
     }
     block_.measure(count);
-    for (std::size_t i = 0; i < count; ++i) write_one(h[i], e + i, unscale_ * block_.half_length[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      write_one(h[i], e + i, unscale_ * block_.half_length[i]);
   }
 
  private:
@@ -160,7 +166,8 @@ void write_edges(const SpatialOrder2& order, const Mesh2& mesh, const Parts& par
     std::size_t e = first[part];
     for (std::size_t t = parts.begin(part); t < parts.end(part);) {
       std::size_t count = 0;
-      for (const std::size_t end = std::min(t + TriangleBlock::kSize, parts.end(part)); t < end; ++t) {
+      for (const std::size_t end = std::min(t + TriangleBlock::kSize, parts.end(part)); t < end;
+           ++t) {
         count += static_cast<std::size_t>(owned_edges(mesh, t, owned + count));
       }
       writer.write(owned, count, e);

@@ -78,7 +78,8 @@ class Job {
 class Parts {
  public:
   Parts(std::size_t n, const Job& job, std::size_t least = 8192) : n_(n) {
-    const std::size_t wanted = job.threads() == 1 ? 16 : 8 * static_cast<std::size_t>(job.threads());
+    const std::size_t wanted =
+        job.threads() == 1 ? 16 : 8 * static_cast<std::size_t>(job.threads());
     count_ = std::max<std::size_t>(1, std::min(wanted, n / least));
   }
   std::size_t count() const { return count_; }

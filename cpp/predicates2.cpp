@@ -24,13 +24,13 @@ int det2_sign(Dd p, Dd q, Dd r, Dd s, double resolution) {
 }  // namespace
 
 int orient_exact(Point2 a, Point2 b, Point2 c, Lattice lattice) {
-  return det2_sign(two_diff(a.x, c.x), two_diff(b.y, c.y), two_diff(a.y, c.y),
-                   two_diff(b.x, c.x), lattice.unit * lattice.unit);
+  return det2_sign(two_diff(a.x, c.x), two_diff(b.y, c.y), two_diff(a.y, c.y), two_diff(b.x, c.x),
+                   lattice.unit * lattice.unit);
 }
 
 int dot_exact(Point2 a, Point2 b, Point2 c, Lattice lattice) {
-  return det2_sign(two_diff(a.x, c.x), two_diff(b.x, c.x), two_diff(c.y, a.y),
-                   two_diff(b.y, c.y), lattice.unit * lattice.unit);
+  return det2_sign(two_diff(a.x, c.x), two_diff(b.x, c.x), two_diff(c.y, a.y), two_diff(b.y, c.y),
+                   lattice.unit * lattice.unit);
 }
 
 int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d, Lattice lattice) {

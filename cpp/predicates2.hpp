@@ -31,6 +31,17 @@ struct Lattice {
       : unit(u), exact2(std::ldexp(u * u, 53)), exact4(std::ldexp(u * u * u * u, 53)) {}
 };
 
+// Multiplies by 2^e exactly, in two steps as 2^e itself may not be a double.
+class PowerOfTwo {
+ public:
+  explicit PowerOfTwo(int e)
+      : first_(std::ldexp(1.0, e / 2)), second_(std::ldexp(1.0, e - e / 2)) {}
+  double operator*(double v) const { return v * first_ * second_; }
+
+ private:
+  double first_, second_;
+};
+
 constexpr double kEps = 1.1102230246251565e-16;  // 2^-53
 
 // Shewchuk's ccwerrboundA: also covers the rounding of the four differences.
@@ -82,8 +93,8 @@ inline int in_circle_or_zero(Point2 a, Point2 b, Point2 c, Point2 d, const Latti
   const double al = adx * adx + ady * ady, bl = bdx * bdx + bdy * bdy;
   const double cl = cdx * cdx + cdy * cdy;
   const double det = al * (bc - cb) + bl * (ca - ac) + cl * (ab - ba);
-  const double sum = (std::fabs(bc) + std::fabs(cb)) * al +
-                     (std::fabs(ca) + std::fabs(ac)) * bl + (std::fabs(ab) + std::fabs(ba)) * cl;
+  const double sum = (std::fabs(bc) + std::fabs(cb)) * al + (std::fabs(ca) + std::fabs(ac)) * bl +
+                     (std::fabs(ab) + std::fabs(ba)) * cl;
   const double bound = kBound4 * sum;
   if (det > bound) return 1;
   if (det < -bound) return -1;

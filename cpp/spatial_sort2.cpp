@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "radix_sort.hpp"
+
 namespace alphamesh {
 namespace {
 
@@ -44,9 +46,7 @@ struct Extent {
     tiny = std::min(tiny, o.tiny);
     finite = finite && o.finite;
   }
-  double magnitude() const {
-    return std::max(std::max(-lo[0], hi[0]), std::max(-lo[1], hi[1]));
-  }
+  double magnitude() const { return std::max(std::max(-lo[0], hi[0]), std::max(-lo[1], hi[1])); }
 };
 
 Extent extent_of(const double* xy, std::size_t begin, std::size_t end) {
@@ -69,7 +69,8 @@ Extent extent_of(const double* xy, std::size_t begin, std::size_t end) {
 Extent extent_of(const double* xy, std::size_t n, Job& job) {
   const Parts parts(n, job);
   std::vector<Extent> found(parts.count());
-  job.run(parts.count(), [&](std::size_t i) { found[i] = extent_of(xy, parts.begin(i), parts.end(i)); });
+  job.run(parts.count(),
+          [&](std::size_t i) { found[i] = extent_of(xy, parts.begin(i), parts.end(i)); });
   Extent all;
   for (const Extent& e : found) all.add(e);
   return all;
@@ -108,24 +109,29 @@ int common_unit(const double* xy, std::size_t n, int enough, Job& job) {
   return *std::min_element(found.begin(), found.end());
 }
 
-// Chooses the power of two that brings the cloud into range, and the lattice.
-void set_scale(SpatialOrder2& out, const double* xy, std::size_t n, const Extent& extent, Job& job) {
+struct Range {
+  int exponent = 0;    // of the power of two that brings the cloud into range
+  int unit = kNoUnit;  // exponent of the lattice, if there is one
+};
+
+Range range_of(const double* xy, std::size_t n, const Extent& extent, Job& job) {
+  Range range;
   if (!extent.finite) throw BadCoordinates("a coordinate is NaN or infinite");
   const double magnitude = extent.magnitude();
-  if (magnitude == 0.0) return;
+  if (magnitude == 0.0) return range;
   const int top = std::ilogb(magnitude) + 1;
   const int lattice_limit = top - kLatticeBits;  // finer than this, it would not help
   const int unit = common_unit(xy, n, lattice_limit, job);
-  const bool is_lattice = unit > lattice_limit;
+  if (unit > lattice_limit) range.unit = unit;
   // A lower bound of the last bit; the last bit itself only where the bound is too low.
-  int bottom = is_lattice ? unit : std::ilogb(extent.tiny) - kMantissa;
+  int bottom = unit > lattice_limit ? unit : std::ilogb(extent.tiny) - kMantissa;
   if (top > kTop || bottom < kBottom) {
     const int least = top - (kTop - kBottom);
     if (bottom < least) bottom = common_unit(xy, n, least - 1, job);
     if (bottom < least) throw BadCoordinates("the range of exponents is too wide");
-    if (top > kTop || bottom < kBottom) out.exponent = kTop - top;
+    if (top > kTop || bottom < kBottom) range.exponent = kTop - top;
   }
-  if (is_lattice) out.lattice = Lattice(std::ldexp(1.0, unit + out.exponent));
+  return range;
 }
 
 std::uint32_t spread_bits(std::uint32_t v) {  // 16 bits to the even places
@@ -152,40 +158,6 @@ struct Grid {
     return (spread_bits(cell(p.x, x0)) << 1) | spread_bits(cell(p.y, y0));
   }
 };
-
-// Stable parallel radix sort by the upper half of each word, least digit first.
-void radix_sort(Buffer<std::uint64_t>& words, int key_bits, Job& job) {
-  const std::size_t n = words.size();
-  const int passes = (key_bits + 10) / 11, digit = (key_bits + passes - 1) / passes;
-  const std::size_t radix = std::size_t{1} << digit;
-  const Parts parts(n, job, 32768);
-  Buffer<std::uint64_t> other(n);
-  std::vector<std::uint32_t> count(parts.count() * radix);
-  for (int pass = 0; pass < passes; ++pass) {
-    const int shift = 32 + pass * digit;
-    const std::uint64_t mask = radix - 1;
-    job.run(parts.count(), [&](std::size_t i) {
-      std::uint32_t* c = count.data() + i * radix;
-      std::fill(c, c + radix, 0u);
-      for (std::size_t k = parts.begin(i); k < parts.end(i); ++k) ++c[(words[k] >> shift) & mask];
-    });
-    std::uint32_t sum = 0;
-    for (std::size_t d = 0; d < radix; ++d) {
-      for (std::size_t i = 0; i < parts.count(); ++i) {
-        const std::uint32_t c = count[i * radix + d];
-        count[i * radix + d] = sum;
-        sum += c;
-      }
-    }
-    job.run(parts.count(), [&](std::size_t i) {
-      std::uint32_t* c = count.data() + i * radix;
-      for (std::size_t k = parts.begin(i); k < parts.end(i); ++k) {
-        other[c[(words[k] >> shift) & mask]++] = words[k];
-      }
-    });
-    std::swap(words, other);
-  }
-}
 
 struct Entry {
   std::uint32_t key;
@@ -277,12 +249,21 @@ void merge_duplicates(SpatialOrder2& o) {
 
 }  // namespace
 
+int range_exponent2(const double* xy, std::size_t n, Job& job) {
+  const Extent extent = extent_of(xy, 0, n);
+  const double magnitude = extent.magnitude();
+  if (extent.finite && magnitude < 0x1p250 && extent.tiny >= 0x1p-188) return 0;
+  return range_of(xy, n, extent, job).exponent;
+}
+
 SpatialOrder2 spatial_order2(const double* xy, std::size_t n, Job& job) {
   SpatialOrder2 o;
   o.size = n;
   if (n == 0) return o;
   const Extent extent = extent_of(xy, n, job);
-  set_scale(o, xy, n, extent, job);
+  const Range range = range_of(xy, n, extent, job);
+  o.exponent = range.exponent;
+  if (range.unit != kNoUnit) o.lattice = Lattice(std::ldexp(1.0, range.unit + range.exponent));
 
   int bits = 4;  // cells of the coarse grid: about 64 a point on a uniform cloud
   while (bits < 16 && (std::size_t{1} << (2 * (bits - 3))) < n) ++bits;

@@ -20,27 +20,21 @@ struct BadCoordinates : std::invalid_argument {
 // Mesh ids are 32-bit numbers, eight to a triangle.
 constexpr std::size_t kMaxPoints2 = std::size_t{1} << 27;
 
-// Multiplies by 2^e exactly, in two steps as 2^e itself may not be a double.
-class PowerOfTwo {
- public:
-  explicit PowerOfTwo(int e) : first_(std::ldexp(1.0, e / 2)), second_(std::ldexp(1.0, e - e / 2)) {}
-  double operator*(double v) const { return v * first_ * second_; }
-
- private:
-  double first_, second_;
-};
-
 // Distinct points in spatial order. Nothing here depends on the order of the input but
 // `row` and `representative`.
 struct SpatialOrder2 {
-  std::size_t size = 0;               // number of distinct points
-  Buffer<Point2> points;              // scaled by 2^exponent
-  Buffer<std::int32_t> row;           // lowest input row of each point
-  Buffer<std::uint64_t> key;          // two Morton codes, coarse and fine; ascending
+  std::size_t size = 0;                 // number of distinct points
+  Buffer<Point2> points;                // scaled by 2^exponent
+  Buffer<std::int32_t> row;             // lowest input row of each point
+  Buffer<std::uint64_t> key;            // two Morton codes, coarse and fine; ascending
   Buffer<std::int32_t> representative;  // per input row; empty if all are distinct
   int exponent = 0;
   Lattice lattice;
 };
+
+// Exponent of the power of two that brings a few points into the range of exact products;
+// nearly always 0.
+int range_exponent2(const double* xy, std::size_t n, Job& job);
 
 SpatialOrder2 spatial_order2(const double* xy, std::size_t n, Job& job);
 

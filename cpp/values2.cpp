@@ -6,13 +6,13 @@
 namespace alphamesh {
 namespace {
 
-// Circumradius of the triangle with squared sides u, v, w and twice the area `det`, where
-// the plain formula left the range of doubles.
-double circumradius_scaled(double u, double v, double w, double det) {
+// Circumradius of the triangle with squared sides u, v, w and twice the area `det`, times
+// 2^exponent, where the plain formula leaves the range of doubles.
+double circumradius_scaled(double u, double v, double w, double det, int exponent) {
   int eu, ev, ew, ed;
   const double m = std::frexp(std::sqrt(u), &eu) * std::frexp(std::sqrt(v), &ev) *
                    std::frexp(std::sqrt(w), &ew) / std::frexp(det, &ed);
-  return std::ldexp(m, eu + ev + ew - ed - 1);
+  return std::ldexp(m, eu + ev + ew - ed - 1 + exponent);
 }
 
 constexpr double kLargeSq = 0x1p1000, kSmallSq = 0x1p-900;
@@ -29,7 +29,8 @@ void TriangleBlock::evaluate() {
     const double vx = cx_[i] - bx_[i], vy = cy_[i] - by_[i];
     const double wx = ax_[i] - cx_[i], wy = ay_[i] - cy_[i];
     const double u = ux * ux + uy * uy, v = vx * vx + vy * vy, w = wx * wx + wy * wy;
-    const double at_a = -(ux * wx + uy * wy), at_b = -(ux * vx + uy * vy), at_c = -(vx * wx + vy * wy);
+    const double at_a = -(ux * wx + uy * wy), at_b = -(ux * vx + uy * vy),
+                 at_c = -(vx * wx + vy * wy);
     const double uv = u > v ? u : v, longest = uv > w ? uv : w;
     const double ab = at_a < at_b ? at_a : at_b, least = ab < at_c ? ab : at_c;
     const double l = uy * wx, r = ux * wy, det = l - r;
@@ -47,18 +48,21 @@ void TriangleBlock::evaluate() {
   }
 }
 
-void TriangleBlock::measure(const Lattice& lattice) {
+void TriangleBlock::measure(const Lattice& lattice, int exponent) {
   evaluate();
+  const PowerOfTwo unscale(-exponent);
   for (std::size_t i = 0; i < count; ++i) {
     // Opposite to a is the edge from b, which is edge first + 1, and so on.
     const bool b = at_b_[i] < 0.0, c = at_c_[i] < 0.0;
     const std::int32_t edge = first_[i] + 1 + b + 2 * c, wrapped = edge - (edge > 2 ? 3 : 0);
     obtuse[i] = ((at_a_[i] < 0.0) | b | c) ? wrapped : kNoEdge;
-    if (doubtful_[i] != 0.0) measure_carefully(i, lattice);
+    radius[i] = unscale * radius[i];
+    if (doubtful_[i] != 0.0) measure_carefully(i, lattice, exponent);
   }
 }
 
-void TriangleBlock::measure_carefully(std::size_t i, const Lattice& lattice) {
+void TriangleBlock::measure_carefully(std::size_t i, const Lattice& lattice, int exponent) {
+  const PowerOfTwo unscale(-exponent);
   const Point2 p[3] = {{ax_[i], ay_[i]}, {bx_[i], by_[i]}, {cx_[i], cy_[i]}};
   double side[3];  // squared, opposite to each vertex
   int angle[3];
@@ -71,7 +75,7 @@ void TriangleBlock::measure_carefully(std::size_t i, const Lattice& lattice) {
   for (std::int32_t k = 0; k < 3; ++k) {
     if (angle[k] < 0) obtuse[i] = (first_[i] + k + 1) % 3;
     if (angle[k] == 0) {  // as the value of the edge, to the last bit
-      radius[i] = 0.5 * std::sqrt(side[k]);
+      radius[i] = unscale * (0.5 * std::sqrt(side[k]));
       return;
     }
   }
@@ -79,8 +83,9 @@ void TriangleBlock::measure_carefully(std::size_t i, const Lattice& lattice) {
   const double radius_sq = 0.25 * ((side[2] / det) * (side[0] / det) * side[1]);
   const double longest = std::max(side[0], std::max(side[1], side[2]));
   const bool plain = radius_sq < kLargeSq && radius_sq > kSmallSq;
-  const double r = plain ? std::sqrt(radius_sq) : circumradius_scaled(side[2], side[0], side[1], det);
-  radius[i] = std::max(r, 0.5 * std::sqrt(longest));
+  const double r = plain ? unscale * std::sqrt(radius_sq)
+                         : circumradius_scaled(side[2], side[0], side[1], det, -exponent);
+  radius[i] = std::max(r, unscale * (0.5 * std::sqrt(longest)));
 }
 
 void EdgeBlock::measure(std::size_t count) {

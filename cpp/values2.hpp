@@ -18,15 +18,17 @@ struct TriangleBlock {
 
   std::size_t count = 0;
   double radius[kSize];
-  std::int32_t obtuse[kSize];  // the edge (0, 1, 2: from vertex i to i + 1) opposite to an obtuse angle, or 3
+  std::int32_t obtuse[kSize];  // the edge (0, 1, 2: from vertex i to i + 1) opposite to an obtuse
+                               // angle, or 3
 
   // Vertices counter-clockwise.
   void push(Point2 a, Point2 b, Point2 c);
-  void measure(const Lattice& lattice);
+  // Radii in the units of the input: `exponent` is what its coordinates were scaled by.
+  void measure(const Lattice& lattice, int exponent);
 
  private:
   void evaluate();
-  void measure_carefully(std::size_t i, const Lattice& lattice);
+  void measure_carefully(std::size_t i, const Lattice& lattice, int exponent);
 
   // Vertices from the lexicographically least one on, so that the result does not depend
   // on where the triangle began, to the last bit; `first` tells which one it was.

@@ -1,0 +1,209 @@
+#include "restricted2.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace alphamesh {
+namespace {
+
+using Id = std::int32_t;
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// A cell's segment on the bisector with one neighbour.
+struct Segment {
+  Id edge, row;      // the neighbour across
+  Id before, after;  // triangles at its ends, -1 where it ends on the circle
+  double half;       // half the distance to the neighbour
+  double from, to;   // ends along the bisector, from the midpoint on, counter-clockwise
+  Point2 start, end;
+};
+
+class CellMaker {
+ public:
+  CellMaker(const ComplexView2& view, const double* triangle_radii, const double* edge_radii,
+            double radius, const Rings2& rings, const Buffer<Point2>& centres)
+      : view_(view),
+        triangle_radii_(triangle_radii),
+        edge_radii_(edge_radii),
+        r_(radius),
+        rings_(rings),
+        centres_(centres) {}
+
+  std::size_t count_pieces(Id v) const;
+  void write(Id v, RestrictedCells2& out, std::size_t at);
+
+ private:
+  bool has_edge(Id e) const { return edge_radii_[e] <= r_; }
+  bool has_triangle(Id t) const { return t >= 0 && triangle_radii_[t] <= r_; }
+  void collect(Id v);
+  Segment segment(Id v, Id edge, Id before, Id after) const;
+  Point2 crossing(Id edge, double along) const;
+  double centre_along(Id v, const Segment& s, Id triangle) const;
+  double turn(Id v, Id from, Id to) const;
+
+  const ComplexView2& view_;
+  const double* triangle_radii_;
+  const double* edge_radii_;
+  double r_;
+  const Rings2& rings_;
+  const Buffer<Point2>& centres_;
+  std::vector<Segment> segments_;
+};
+
+// A segment each, and an arc after each that does not end in a triangle of the complex.
+std::size_t CellMaker::count_pieces(Id v) const {
+  std::size_t pieces = 0;
+  for (std::int64_t i = rings_.offset[v]; i < rings_.offset[v + 1]; ++i) {
+    if (!has_edge(rings_.edge[i])) continue;
+    pieces += has_triangle(rings_.triangle[i]) ? 1 : 2;
+  }
+  return std::max<std::size_t>(1, pieces);
+}
+
+// Where the circle around either end crosses the bisector: the same bits for both cells.
+Point2 CellMaker::crossing(Id edge, double along) const {
+  const Point2 a = view_.point(view_.edges[2 * edge]), b = view_.point(view_.edges[2 * edge + 1]);
+  const double dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
+  const double share = along / length;
+  return {a.x + 0.5 * dx - share * dy, a.y + 0.5 * dy + share * dx};
+}
+
+// Position of a triangle's circumcentre along the bisector of v and s.row, positive to
+// the left of the way from v to the neighbour: half times the cotangent of the angle at
+// the apex, with the sign of the side on which the apex lies.
+double CellMaker::centre_along(Id v, const Segment& s, Id triangle) const {
+  const Id* row = view_.triangles + 3 * static_cast<std::size_t>(triangle);
+  Id apex = row[0];
+  if (apex == v || apex == s.row) apex = row[1];
+  if (apex == v || apex == s.row) apex = row[2];
+  const Point2 a = view_.point(v), b = view_.point(s.row), c = view_.point(apex);
+  const double dot = (a.x - c.x) * (b.x - c.x) + (a.y - c.y) * (b.y - c.y);
+  return s.half * (dot / cross_accurate(a, b, c));
+}
+
+Segment CellMaker::segment(Id v, Id edge, Id before, Id after) const {
+  Segment s{};
+  s.edge = edge;
+  s.row = view_.other_end(edge, v);
+  s.before = has_triangle(before) ? before : -1;
+  s.after = has_triangle(after) ? after : -1;
+  const Point2 a = view_.point(v), b = view_.point(s.row);
+  s.half = 0.5 * std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+  const double reach = std::sqrt(std::max(0.0, (r_ - s.half) * (r_ + s.half)));
+  // Left of the way from v, as seen from the lower row.
+  const double sign = v == view_.edges[2 * edge] ? 1.0 : -1.0;
+  s.to = s.after >= 0 ? centre_along(v, s, s.after) : reach;
+  s.from = s.before >= 0 ? centre_along(v, s, s.before) : -reach;
+  s.end = s.after >= 0 ? centres_[static_cast<std::size_t>(s.after)] : crossing(edge, sign * reach);
+  s.start =
+      s.before >= 0 ? centres_[static_cast<std::size_t>(s.before)] : crossing(edge, -sign * reach);
+  return s;
+}
+
+void CellMaker::collect(Id v) {
+  segments_.clear();
+  const std::int64_t begin = rings_.offset[v], end = rings_.offset[v + 1];
+  for (std::int64_t i = begin; i < end; ++i) {
+    const Id before = rings_.triangle[i == begin ? end - 1 : i - 1];
+    if (has_edge(rings_.edge[i])) {
+      segments_.push_back(segment(v, rings_.edge[i], before, rings_.triangle[i]));
+    }
+  }
+}
+
+// The angle from one neighbour to the next, counter-clockwise, in (0, 2 pi]. An exact
+// sign keeps a rounded zero from becoming a full turn.
+double CellMaker::turn(Id v, Id from, Id to) const {
+  if (from == to) return 2.0 * kPi;
+  const Point2 c = view_.point(v), a = view_.point(from), b = view_.point(to);
+  const double dot = (a.x - c.x) * (b.x - c.x) + (a.y - c.y) * (b.y - c.y);
+  const double angle = std::atan2(cross_accurate(c, a, b), dot);
+  const int side = orient(c, a, b, Lattice());
+  if (side == 0) return kPi;
+  return side > 0 ? std::max(0.0, angle) : 2.0 * kPi + std::min(0.0, angle);
+}
+
+void CellMaker::write(Id v, RestrictedCells2& out, std::size_t at) {
+  collect(v);
+  const Point2 c = view_.point(v);
+  auto put = [&](Point2 start, Point2 end, Id neighbor, double from, double to) {
+    out.start[at] = start;
+    out.end[at] = end;
+    out.neighbor[at] = neighbor;
+    out.angles[2 * at] = from;
+    out.angles[2 * at + 1] = to;
+    ++at;
+  };
+  if (segments_.empty()) {
+    const Point2 p{c.x + r_, c.y};
+    put(p, p, -1, 0.0, 2.0 * kPi);
+    out.area[v] = kPi * r_ * r_;
+    out.segment_length[v] = 0.0;
+    out.arc_length[v] = 2.0 * kPi * r_;
+    return;
+  }
+  double triangles = 0.0, length = 0.0, angles = 0.0;
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const Segment& s = segments_[i];
+    put(s.start, s.end, s.row, kNan, kNan);
+    length += s.to - s.from;
+    triangles += 0.5 * s.half * (s.to - s.from);
+    if (s.after >= 0) continue;
+    const Segment& next = segments_[(i + 1) % segments_.size()];
+    const double used = std::atan2(s.to, s.half) + std::atan2(-next.from, next.half);
+    const double angle = std::max(0.0, turn(v, s.row, next.row) - used);
+    const double from = std::atan2(s.end.y - c.y, s.end.x - c.x);
+    put(s.end, next.start, -1, from, from + angle);
+    angles += angle;
+  }
+  out.area[v] = triangles + 0.5 * angles * r_ * r_;
+  out.segment_length[v] = length;
+  out.arc_length[v] = angles * r_;
+}
+
+}  // namespace
+
+RestrictedCells2 restricted2(const ComplexView2& view, const double* triangle_radii,
+                             const double* edge_radii, const bool* active, double radius,
+                             Job& job) {
+  const Buffer<Id> triangle_edges = triangle_edges2(view, job);
+  const Rings2 rings = rings2(view, triangle_edges, job);
+  const Buffer<Point2> centres = circumcentres2(view, job);
+  RestrictedCells2 out;
+  out.offset = Buffer<std::int64_t>(view.n + 1);
+  out.area = Buffer<double>(view.n);
+  out.segment_length = Buffer<double>(view.n);
+  out.arc_length = Buffer<double>(view.n);
+  out.offset[0] = 0;
+  const Parts parts(view.n, job, 2048);
+  job.run(parts.count(), [&](std::size_t part) {
+    const CellMaker maker(view, triangle_radii, edge_radii, radius, rings, centres);
+    for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
+      out.offset[v + 1] =
+          active[v] ? static_cast<std::int64_t>(maker.count_pieces(static_cast<Id>(v))) : 0;
+    }
+  });
+  for (std::size_t v = 0; v < view.n; ++v) out.offset[v + 1] += out.offset[v];
+  const auto pieces = static_cast<std::size_t>(out.offset[view.n]);
+  out.start = Buffer<Point2>(pieces);
+  out.end = Buffer<Point2>(pieces);
+  out.neighbor = Buffer<Id>(pieces);
+  out.angles = Buffer<double>(2 * pieces);
+  job.run(parts.count(), [&](std::size_t part) {
+    CellMaker maker(view, triangle_radii, edge_radii, radius, rings, centres);
+    for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
+      if (active[v]) {
+        maker.write(static_cast<Id>(v), out, static_cast<std::size_t>(out.offset[v]));
+      } else {
+        out.area[v] = out.segment_length[v] = out.arc_length[v] = 0.0;
+      }
+    }
+    job.advance(1.0 / static_cast<double>(parts.count()));
+  });
+  return out;
+}
+
+}  // namespace alphamesh
