@@ -1,0 +1,111 @@
+"""Exact, fast alpha complexes: from a cloud of points to a mesh that keeps its holes.
+
+>>> import alphamesh as am
+>>> points = am.demo_cloud("eight", 2000, seed=1)
+>>> shape = am.AlphaComplex(points).at()
+>>> shape.save("mesh.vtu")                                              # doctest: +SKIP
+
+Names are imported when they are first used.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from alphamesh import check, errors, plot
+    from alphamesh.classify import SimplexKind
+    from alphamesh.complex import AlphaComplex
+    from alphamesh.delaunay import Delaunay, delaunay
+    from alphamesh.filtration import Filtration, filtration
+    from alphamesh.io.images import sample_mask
+    from alphamesh.io.meshes import MESH_FORMATS, Mesh, write_mesh
+    from alphamesh.io.points import read_points
+    from alphamesh.radius import RadiusChoice, choose_radius
+    from alphamesh.sampling import DEMO_SHAPES, demo_cloud, demo_mask
+    from alphamesh.shape import AlphaShape
+
+    __version__: str
+
+__all__ = [
+    "DEMO_SHAPES",
+    "MESH_FORMATS",
+    "AlphaComplex",
+    "AlphaShape",
+    "Delaunay",
+    "Filtration",
+    "Mesh",
+    "RadiusChoice",
+    "SimplexKind",
+    "__version__",
+    "check",
+    "choose_radius",
+    "delaunay",
+    "demo_cloud",
+    "demo_mask",
+    "errors",
+    "filtration",
+    "plot",
+    "read_points",
+    "sample_mask",
+    "write_mesh",
+]
+
+_MODULES = ("check", "errors", "plot")
+_HOMES = {
+    "classify": ("SimplexKind",),
+    "complex": ("AlphaComplex",),
+    "delaunay": ("Delaunay", "delaunay"),
+    "filtration": ("Filtration", "filtration"),
+    "io.images": ("sample_mask",),
+    "io.meshes": ("MESH_FORMATS", "Mesh", "write_mesh"),
+    "io.points": ("read_points",),
+    "radius": ("RadiusChoice", "choose_radius"),
+    "sampling": ("DEMO_SHAPES", "demo_cloud", "demo_mask"),
+    "shape": ("AlphaShape",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+
+def _version() -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version(__name__)
+    except PackageNotFoundError:  # imported from a source tree
+        return "0+unknown"
+
+
+if not TYPE_CHECKING:  # or a type checker would take any name for granted
+
+    def __getattr__(name: str) -> Any:
+        if name in _MODULES:
+            return import_module(f"{__name__}.{name}")
+        if name in _HOME_OF:
+            value = getattr(import_module(f"{__name__}.{_HOME_OF[name]}"), name)
+        elif name == "__version__":
+            value = _version()
+        else:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        globals()[name] = value
+        return value
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
+class _Package(ModuleType):
+    """A package in which a stage's function is not hidden by the module of its name."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        # Python binds each module that it loads, alphamesh.delaunay too, in the package.
+        if isinstance(value, ModuleType) and _HOME_OF.get(name) == name:
+            value = getattr(value, name)
+        super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

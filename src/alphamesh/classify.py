@@ -1,0 +1,155 @@
+"""Where simplices lie with respect to the complex: from which radius on, and at a radius.
+
+As the radius grows, a simplex is first outside, then singular, then regular, then
+interior. Each change comes at a radius that depends on the filtration alone, so these
+radii are computed once, and a classification is a comparison with them.
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from alphamesh._arrays import Record, read_only
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
+
+__all__ = [
+    "Intervals",
+    "SimplexKind",
+    "chosen",
+    "edge_intervals",
+    "least_at_vertices",
+    "reached",
+    "vertex_intervals",
+]
+
+# Simplices worked on at a time: what belongs to them stays in the processor's cache.
+_CHUNK = 1 << 15
+
+
+class SimplexKind(IntEnum):
+    """Where a simplex of the triangulation lies with respect to the complex.
+
+    The names are those of Edelsbrunner and Mücke, Three-dimensional alpha shapes, ACM
+    Transactions on Graphics 13 (1994) 43-72.
+    """
+
+    EXTERIOR = 0
+    """Not in the complex."""
+    SINGULAR = 1
+    """In the complex, but in none of its triangles."""
+    REGULAR = 2
+    """On the boundary of the triangles of the complex."""
+    INTERIOR = 3
+    """Inside: surrounded by triangles of the complex; so is each of these."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Intervals(Record):
+    """The radii at which simplices of one dimension change their kind.
+
+    Attributes
+    ----------
+    singular_from, regular_from, interior_from : (m,) float64
+        The filtration value; the least and the greatest value of the triangles that the
+        simplex belongs to. Infinity means never, as ``interior_from`` on the hull.
+    """
+
+    singular_from: FloatArray
+    regular_from: FloatArray
+    interior_from: FloatArray
+
+    def kinds_at(self, radius: float) -> KindArray:
+        """Return the :class:`SimplexKind` of each simplex at `radius`, ``(m,)`` int8."""
+        kinds = reached(self.singular_from, radius).view(np.int8)
+        kinds += reached(self.regular_from, radius).view(np.int8)
+        kinds += reached(self.interior_from, radius).view(np.int8)
+        return read_only(kinds)
+
+
+def reached(since: FloatArray, radius: float) -> BoolArray:
+    """Return where ``since <= radius``; never where `since` is infinite."""
+    # All changes come at finite radii, so the largest float is as good as infinity.
+    return since <= min(radius, sys.float_info.max)
+
+
+def edge_intervals(
+    radii: FloatArray, edge_triangles: IntArray, triangle_radii: FloatArray
+) -> Intervals:
+    """Return the intervals of edges.
+
+    Parameters
+    ----------
+    radii : (E,) float64
+    edge_triangles : (E, 2) int32
+        Rows of triangles, -1 for none.
+    triangle_radii : (T,) float64
+    """
+    # Row -1, no triangle, reads the last entry: never.
+    values = np.append(triangle_radii, np.inf)
+    least, greatest = np.empty(len(radii)), np.empty(len(radii))
+    for start in range(0, len(radii), _CHUNK):
+        part = slice(start, start + _CHUNK)
+        first, second = values.take(edge_triangles[part]).T
+        np.minimum(first, second, out=least[part])
+        np.maximum(first, second, out=greatest[part])
+    return Intervals(radii, read_only(least), read_only(greatest))
+
+
+def vertex_intervals(
+    vertices: IntArray, triangles: IntArray, triangle_radii: FloatArray, hull_edges: IntArray
+) -> Intervals:
+    """Return the intervals of vertices.
+
+    Parameters
+    ----------
+    vertices : (m,) int32
+        Rows, ascending; all corners are among them.
+    triangles : (T, 3) int32
+    triangle_radii : (T,) float64
+    hull_edges : (h, 2) int32
+        Edges with less than two triangles.
+    """
+    least = least_at_vertices(vertices, triangles, triangle_radii)
+    greatest = np.zeros(_rows_up_to(vertices))
+    for corner in range(3):
+        np.maximum.at(greatest, triangles[:, corner], triangle_radii)
+    greatest[hull_edges] = np.inf
+    greatest = greatest.take(vertices)
+    greatest[least == np.inf] = np.inf
+    return Intervals(read_only(np.zeros(len(vertices))), least, read_only(greatest))
+
+
+def least_at_vertices(vertices: IntArray, simplices: IntArray, radii: FloatArray) -> FloatArray:
+    """Return the least value of the simplices that each vertex is part of; infinity if none.
+
+    Parameters
+    ----------
+    vertices : (m,) int32
+        Rows, ascending; all corners are among them.
+    simplices : (k, d) int32
+    radii : (k,) float64
+
+    Returns
+    -------
+    (m,) float64
+    """
+    least = np.full(_rows_up_to(vertices), np.inf)
+    for corner in range(simplices.shape[1]):
+        np.minimum.at(least, simplices[:, corner], radii)
+    return read_only(least.take(vertices))
+
+
+def _rows_up_to(vertices: IntArray) -> int:
+    return int(vertices[-1]) + 1 if len(vertices) else 0
+
+
+def chosen(simplices: IntArray, mask: BoolArray) -> IntArray:
+    """Return the simplices where `mask` is true."""
+    return read_only(simplices.compress(mask, axis=0))

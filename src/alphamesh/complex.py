@@ -1,0 +1,198 @@
+"""The object that users hold: an alpha complex, built once, looked at in many ways."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from alphamesh._arrays import read_only
+from alphamesh.delaunay import Delaunay
+from alphamesh.filtration import filtration as build_filtration
+from alphamesh.radius import DEFAULT_RULE, RadiusChoice, choose_radius
+from alphamesh.shape import AlphaShape
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from alphamesh._arrays import FloatArray, IntArray
+    from alphamesh._kernels import Progress
+    from alphamesh.filtration import Filtration
+    from alphamesh.plot import Drawing
+
+__all__ = ["AlphaComplex"]
+
+
+class AlphaComplex:
+    """The alpha complex of a cloud: its Delaunay triangulation and exact filtration.
+
+    Parameters
+    ----------
+    points : array-like of shape (n, 2)
+        Arrays, lists, DataFrames of two numeric columns; copied. Duplicates are merged.
+        Any number of points is legal: none, one, all on one line.
+    threads : int, optional
+        Threads to use; by default one for each usable CPU. The result does not depend
+        on it.
+    progress : callable, optional
+        Called with the fraction that is done, from 0 to 1, about ten times a second.
+
+    Raises
+    ------
+    CloudShapeError, NonFiniteError, CoordinateRangeError, CloudTooLargeError
+        If there is no exact complex of such points; the message names the rows.
+    ParameterError
+        If `threads` or `progress` is not what it must be.
+
+    Notes
+    -----
+    Nothing in an alpha complex can change: arrays are read-only, and a copy is the
+    object itself.
+
+    Examples
+    --------
+    >>> import alphamesh as am
+    >>> cx = am.AlphaComplex([[0, 0], [2, 0], [0, 2], [2, 2], [9, 1]])
+    >>> cx.at(1.5)
+    <AlphaShape at radius 1.5: 2 triangles, 1 isolated vertices>
+    >>> cx.at(1.5).area
+    4.0
+    """
+
+    __slots__ = ("__weakref__", "_delaunay", "_filtration")
+
+    def __init__(
+        self, points: Any, *, threads: int | None = None, progress: Progress | None = None
+    ) -> None:
+        self._filtration = build_filtration(points, threads=threads, progress=progress)
+        self._delaunay: Delaunay | None = None
+
+    @property
+    def filtration(self) -> Filtration:
+        """Every simplex and its filtration value."""
+        return self._filtration
+
+    @property
+    def points(self) -> FloatArray:
+        """The cloud, ``(n, 2)`` float64."""
+        return self._filtration.points
+
+    @property
+    def representative(self) -> IntArray:
+        """The lowest row with the coordinates of each row, ``(n,)`` int32."""
+        return self._filtration.representative
+
+    @property
+    def dimension(self) -> int:
+        """Dimension of the cloud: 2, 1 if on one line, 0 if at one point, -1 if empty."""
+        return self._filtration.dimension
+
+    @property
+    def simplices(self) -> tuple[IntArray, IntArray, IntArray]:
+        """Vertices, edges and triangles: rows of `points`, ``(m_k, k + 1)`` int32."""
+        return self._filtration.simplices
+
+    @property
+    def radii(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Filtration values of `simplices`, ``(m_k,)`` float64 in the units of the points."""
+        return self._filtration.radii
+
+    @property
+    def delaunay(self) -> Delaunay:
+        """The Delaunay triangulation, with the neighbours of each triangle."""
+        if self._delaunay is None:
+            self._delaunay = _delaunay_of(self._filtration)
+        return self._delaunay
+
+    def choose_radius(self, rule: str = DEFAULT_RULE) -> RadiusChoice:
+        """Choose a radius, and say why.
+
+        Parameters and errors are those of :func:`alphamesh.choose_radius`.
+        """
+        return choose_radius(self._filtration, rule)
+
+    def at(self, radius: float | None = None) -> AlphaShape:
+        """Return the complex at one radius: all simplices of value <= radius.
+
+        Parameters
+        ----------
+        radius : float, optional
+            In the units of the points; by default the one that :meth:`choose_radius`
+            chooses.
+
+        Returns
+        -------
+        AlphaShape
+
+        Raises
+        ------
+        ParameterError
+            If `radius` is not a number, negative or NaN.
+        EmptyCloudError
+            If there are no points to choose a radius for.
+        """
+        if radius is None:
+            radius = self.choose_radius().radius
+        return AlphaShape(self._filtration, radius)
+
+    def critical_radii(self) -> FloatArray:
+        """Return every radius at which the complex changes, ascending, without repeats.
+
+        Returns
+        -------
+        (k,) float64
+            Starts with 0, where the points appear, unless there are none. Between one
+            and the next, all complexes are the same.
+        """
+        vertices, edges, triangles = self._filtration.radii
+        return read_only(np.unique(np.concatenate((vertices[:1], edges, triangles))))
+
+    def plot(self, radius: float | None = None, ax: Axes | None = None) -> Drawing:
+        """Draw the complex at `radius` on matplotlib axes, new ones if `ax` is None.
+
+        See :meth:`at` for the radius and :func:`alphamesh.plot.plot_complex`.
+        """
+        return self.at(radius).plot(ax)
+
+    def __repr__(self) -> str:
+        vertices, edges, triangles = (f"{len(rows):,}" for rows in self.simplices)
+        return f"<AlphaComplex: {vertices} vertices, {edges} edges, {triangles} triangles>"
+
+    def __copy__(self) -> AlphaComplex:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> AlphaComplex:
+        return self
+
+    def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
+        return _from_filtration, (type(self), self._filtration)
+
+
+def _from_filtration(kind: type[AlphaComplex], filtration: Filtration) -> AlphaComplex:
+    """Return the complex that has `filtration`, without computing it again."""
+    made = kind.__new__(kind)
+    made._filtration = filtration
+    made._delaunay = None
+    return made
+
+
+def _delaunay_of(filtration: Filtration) -> Delaunay:
+    """Return the triangulation that a filtration was made of."""
+    _, edges, triangles = filtration.simplices
+    neighbors = np.full(triangles.size, -1, dtype=np.int32)
+    # Hull edges have one triangle, which keeps its -1.
+    inner = np.flatnonzero(filtration.edge_triangles.min(axis=1, initial=0) >= 0)
+    cofaces, ends = (rows.take(inner, axis=0) for rows in (filtration.edge_triangles, edges))
+    for side in (0, 1):
+        corners = triangles.take(cofaces[:, side], axis=0)
+        # Corners and ends ascend, so the corner left out is where they first differ.
+        opposite = 2 - (corners[:, 1] != ends[:, 1])
+        opposite[corners[:, 0] != ends[:, 0]] = 0
+        neighbors[3 * cofaces[:, side].astype(np.intp) + opposite] = cofaces[:, 1 - side]
+    return Delaunay(
+        filtration.points,
+        filtration.representative,
+        triangles,
+        read_only(neighbors.reshape(-1, 3)),
+        edges if len(triangles) == 0 else edges[:0],
+    )

@@ -1,0 +1,135 @@
+"""A cloud: whatever holds points becomes one clean array, or an error that says why not.
+
+This is the only place where input is coerced. Nothing is rounded on the way: a number
+that float64 cannot hold is refused, with its row.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from alphamesh import _coercion
+from alphamesh._arrays import Record, read_only
+from alphamesh.errors import CloudError, CoordinateRangeError, NonFiniteError, rows_text
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import FloatArray
+
+__all__ = ["Cloud", "as_cloud", "coordinate_error"]
+
+_FLOAT64 = np.dtype(np.float64)
+
+# The core's exact sums reach from the square of the largest coordinate down to the square
+# of the last binary digit of the smallest one; this many binary digits fit in between.
+_EXPONENT_RANGE = 490
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Cloud(Record):
+    """Points in the plane, ready for the core.
+
+    Attributes
+    ----------
+    points : (n, 2) float64
+        Read-only, C-contiguous and nobody else's: row i is point i everywhere.
+        Whether all numbers are finite is seen by the core, which reads them anyway.
+    """
+
+    points: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+def as_cloud(points: Any) -> Cloud:
+    """Return `points` as a cloud: a private copy, so that later changes do not reach it.
+
+    Parameters
+    ----------
+    points : array-like of shape (n, 2), DataFrame of two numeric columns, or Cloud
+        Anything that NumPy understands as real numbers: integers, floats of any size,
+        lists, objects with ``__array__``. No point at all is ``numpy.empty((0, 2))``.
+
+    Returns
+    -------
+    Cloud
+
+    Raises
+    ------
+    CloudShapeError
+        If it is not an ``(n, 2)`` table of real numbers: another shape, rows of unequal
+        length, text, missing values, complex numbers.
+    CoordinateRangeError
+        If a number cannot be held exactly, such as the integer ``2**53 + 1``.
+    """
+    if type(points) is np.ndarray and points.dtype == _FLOAT64:
+        if points.ndim == 2 and points.shape[1] == 2:
+            return Cloud(read_only(np.array(points, order="C")))
+    elif isinstance(points, Cloud):
+        return points
+    elif isinstance(points, str | bytes | os.PathLike):
+        raise _coercion.path_error(points)
+    return Cloud(read_only(_coercion.table_of_floats(points)))
+
+
+def coordinate_error(points: FloatArray) -> CloudError:
+    """Return the error for a cloud that the core has refused: which rows, and what to do.
+
+    Parameters
+    ----------
+    points : (n, 2) float64
+
+    Returns
+    -------
+    NonFiniteError or CoordinateRangeError
+    """
+    rows = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if len(rows):
+        return NonFiniteError(
+            f"NaN or infinite coordinates in {rows_text(rows[:6], total=len(rows))} of "
+            f"{len(points):,}; drop them with points[numpy.isfinite(points).all(axis=1)]",
+            rows=rows[:6],
+        )
+    return _range_error(points)
+
+
+def _range_error(points: FloatArray) -> CoordinateRangeError:
+    """Name the rows that are too small beside the others, or too large if these are fewer."""
+    sizes = np.abs(points)
+    used = sizes > 0
+    first = np.where(used, np.frexp(sizes)[1], np.iinfo(np.int32).min)
+    last = np.where(used, _last_digit(sizes), np.iinfo(np.int32).max)
+    tiny = np.flatnonzero((int(first.max()) - last > _EXPONENT_RANGE).any(axis=1))
+    huge = np.flatnonzero((first - int(last.min()) > _EXPONENT_RANGE).any(axis=1))
+    largest = float(sizes.max())
+    if len(huge) < len(tiny):
+        return CoordinateRangeError(
+            "coordinates too far apart in scale for exact arithmetic: too large in "
+            f"{rows_text(huge[:6], total=len(huge))} of {len(points):,}, up to {largest:.6g}; "
+            "if they stand for missing values, drop these rows; else set the tiny "
+            "coordinates of the others to zero",
+            rows=huge[:6],
+        )
+    # Any number of at least this size has all of its 53 digits within the range.
+    safe = float(np.ldexp(largest, 53 - _EXPONENT_RANGE))
+    return CoordinateRangeError(
+        "coordinates too far apart in scale for exact arithmetic: too small in "
+        f"{rows_text(tiny[:6], total=len(tiny))} of {len(points):,}, beside {largest:.6g}; "
+        f"if they are noise, set them to zero: points[abs(points) < {safe:.3g}] = 0",
+        rows=tiny[:6],
+    )
+
+
+def _last_digit(magnitudes: FloatArray) -> np.ndarray[Any, np.dtype[np.int64]]:
+    """Return the exponent of the last binary digit that is set in each number (0 of 0)."""
+    mantissas, exponents = np.frexp(magnitudes)
+    integers = np.ldexp(mantissas, 53).astype(np.int64)
+    lowest = np.maximum(integers & -integers, 1).astype(np.float64)
+    last: np.ndarray[Any, np.dtype[np.int64]] = (
+        exponents.astype(np.int64) - 53 + np.frexp(lowest)[1] - 1
+    )
+    return last

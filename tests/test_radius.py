@@ -1,0 +1,113 @@
+"""Rules that choose a radius, and their reasons."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+import alphamesh as am
+from alphamesh import radius as rules
+from alphamesh.errors import EmptyCloudError, ParameterError
+from complexes import complexes
+
+RNG = np.random.default_rng(3)
+
+
+@given(complexes().filter(lambda cx: len(cx.points)))
+def test_all_points_is_the_smallest_radius_that_leaves_none_out(cx):
+    choice = cx.choose_radius()
+    assert choice == am.choose_radius(cx.filtration, "all-points")
+    assert choice.rule == "all-points"
+    left_out = {2: "singular_vertices", 1: "isolated_vertices", 0: "interior_vertices"}
+    name = left_out[cx.dimension]
+    assert len(getattr(cx.at(choice.radius), name)) == 0
+    # (Between the smallest floats that there are, a radius can round to 0.)
+    if choice.radius > 0:
+        assert len(getattr(cx.at(math.nextafter(choice.radius, 0)), name)) > 0
+        assert choice.radius in cx.critical_radii()
+    else:
+        assert cx.dimension == 0 or np.abs(cx.points).max() < 1e-300
+
+
+def test_all_points_against_a_plain_loop():
+    cx = am.AlphaComplex(RNG.random((200, 2)))
+    least = {}
+    for triangle, radius in zip(cx.simplices[2].tolist(), cx.radii[2].tolist(), strict=True):
+        for vertex in triangle:
+            least[vertex] = min(least.get(vertex, math.inf), radius)
+    assert cx.choose_radius().radius == max(least.values())
+
+
+def test_the_reason_names_the_point_that_decides():
+    choice = am.AlphaComplex([[0, 0], [2, 0], [0, 2], [2, 2], [9, 1]]).choose_radius()
+    assert choice.radius == pytest.approx(50 / 14, rel=1e-15)
+    assert "each of the 5 points is a corner of a triangle" in choice.reason
+    assert "row 4 at (9, 1)" in choice.reason
+    assert str(choice) == f"radius 3.57143 (rule 'all-points'): {choice.reason}"
+
+
+def test_the_reason_counts_distinct_points():
+    points = np.repeat([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], 2, axis=0)
+    assert "each of the 3 points" in am.AlphaComplex(points).choose_radius().reason
+
+
+def test_points_on_a_line_are_joined_by_edges():
+    choice = am.AlphaComplex([[0, 0], [1, 1], [4, 4], [5, 5], [11, 11]]).choose_radius()
+    assert choice.radius == pytest.approx(3 * math.sqrt(2), rel=1e-15)
+    assert "on one line" in choice.reason and "row 4 at (11, 11)" in choice.reason
+
+
+@pytest.mark.parametrize("points", [[[3, 4]], [[3, 4]] * 9])
+def test_one_place_needs_no_radius(points):
+    choice = am.AlphaComplex(points).choose_radius()
+    assert choice.radius == 0.0 and "at one place" in choice.reason
+
+
+def test_no_points_no_radius():
+    cx = am.AlphaComplex(np.empty((0, 2)))
+    for choose in (cx.choose_radius, cx.at, lambda: am.choose_radius(cx.filtration)):
+        with pytest.raises(EmptyCloudError, match="without points"):
+            choose()
+    assert cx.at(1.0).counts["vertices"] == 0
+
+
+@pytest.mark.parametrize(
+    ("rule", "hint"),
+    [
+        ("all_points", "did you mean 'all-points'"),
+        ("one-region", "rules: 'all-points'"),
+        (3, "3"),
+    ],
+)
+def test_an_unknown_rule_lists_the_rules(rule, hint):
+    with pytest.raises(ParameterError, match="there is no radius rule") as caught:
+        am.AlphaComplex([[0, 0], [1, 0], [0, 1]]).choose_radius(rule)
+    assert hint in str(caught.value) and "'all-points'" in str(caught.value)
+
+
+def test_points_are_not_a_filtration():
+    with pytest.raises(ParameterError, match=r"alphamesh\.filtration\(points\)"):
+        am.choose_radius(np.zeros((3, 2)))
+
+
+def test_a_rule_can_be_added(monkeypatch):
+    monkeypatch.setattr(rules, "_RULES", dict(rules._RULES))
+
+    @rules.radius_rule("a-half")
+    def a_half(filtration):
+        return am.RadiusChoice(0.5, "a-half", f"Half, for {len(filtration.points)} points.")
+
+    assert rules.rule_names() == ("all-points", "a-half")
+    choice = am.AlphaComplex([[0, 0], [1, 0], [0, 1]]).choose_radius("a-half")
+    assert choice.radius == 0.5 and choice.reason == "Half, for 3 points."
+    with pytest.raises(ParameterError, match="already"):
+        rules.radius_rule("a-half")(a_half)
+
+
+def test_a_choice_cannot_change():
+    choice = am.RadiusChoice(1.0, "rule", "reason")
+    with pytest.raises(AttributeError):
+        choice.radius = 2.0
