@@ -1,0 +1,1 @@
+"""Files: clouds and masks in, meshes out. One small module per family of formats."""
