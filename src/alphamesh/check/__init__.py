@@ -1,0 +1,18 @@
+"""Validators: each stage's invariants, checked exactly, failures named with their rows.
+
+They prove a result rather than compare it with another program's: triangles that are not
+flat, whose inner edges are all locally Delaunay and whose border is one convex ring *are*
+the Delaunay triangulation [1]_. Ties count too, so that one result alone passes for each
+cloud. A million points take a few seconds.
+
+References
+----------
+.. [1] B. Delaunay, Sur la sphère vide, Bulletin de l'Académie des Sciences de l'URSS,
+   Classe des sciences mathématiques et naturelles 6 (1934) 793-800.
+"""
+
+from alphamesh.check._delaunay import check_delaunay
+from alphamesh.check._filtration import RADIUS_ERROR, check_filtration
+from alphamesh.check._shape import check_shape
+
+__all__ = ["RADIUS_ERROR", "check_delaunay", "check_filtration", "check_shape"]

@@ -1,0 +1,40 @@
+"""The invariants of a Delaunay triangulation."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from alphamesh.check._mesh import check_edges, check_representative, proved_mesh
+from alphamesh.check._tools import check_table, require
+from alphamesh.errors import InvalidResultError
+
+if TYPE_CHECKING:
+    from alphamesh.delaunay import Delaunay
+
+
+def check_delaunay(result: Delaunay) -> None:
+    """Prove that `result` is the canonical Delaunay triangulation of its points.
+
+    Parameters
+    ----------
+    result : Delaunay
+
+    Raises
+    ------
+    InvalidResultError
+        If an invariant fails; the message and ``rows`` name the rows of the array that
+        breaks it.
+    """
+    check_representative(result.points, result.representative)
+    mesh = proved_mesh(result.points, result.representative, result.triangles)
+    check_table(result.neighbors, (len(mesh.triangles), 3), "neighbors")
+    require(
+        (result.neighbors == mesh.neighbors).all(axis=1),
+        "neighbors: not the triangles opposite to the vertices",
+    )
+    check_edges(result.edges, mesh)
+    path = result.edges if len(mesh.triangles) == 0 else result.edges[:0]
+    if not np.array_equal(result.path, path):
+        raise InvalidResultError("path: not the edges of a cloud on one line, and only of such")
