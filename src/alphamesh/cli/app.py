@@ -1,0 +1,87 @@
+"""The group of commands; each command's module is loaded when it is used."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
+
+import click
+
+from alphamesh.cli.command import write_section
+
+__all__ = ["app"]
+
+_COMMANDS = {
+    "mesh": "make a mesh from an image or a point file",
+    "sample": "draw points from a mask image",
+    "info": "tell what is in a file of points, an image or a mesh",
+    "demo": "write a gallery of demo shapes",
+}
+
+_EXAMPLES = (
+    "alphamesh demo",
+    "alphamesh mesh shape.png -o mesh.vtu --plot mesh.png",
+    "alphamesh mesh points.csv --radius 0.5 -o mesh.ply",
+    "alphamesh COMMAND --help",
+)
+_EXIT_CODES = (
+    "0    done",
+    "1    something went wrong; the message says what, and what to do",
+    "2    the command line itself is wrong",
+    "130  interrupted (Ctrl-C); no half-written file is left",
+)
+
+
+class Commands(click.Group):
+    """A group whose commands live in modules of the same name."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names in the order of a newcomer's needs."""
+        return list(_COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Load the module of a command."""
+        if cmd_name not in _COMMANDS:
+            return None
+        command = import_module(f"alphamesh.cli.{cmd_name}").command
+        assert isinstance(command, click.Command)
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands without loading their modules."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(_COMMANDS.items()))
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """End the help with examples and exit codes."""
+        write_section(formatter, "Examples", _EXAMPLES)
+        write_section(formatter, "Exit codes", _EXIT_CODES)
+
+
+def _version() -> str:
+    try:
+        return version("alphamesh")
+    except PackageNotFoundError:  # run from a source tree
+        return "(run from a source tree)"
+
+
+def _show_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted and not ctx.resilient_parsing:
+        click.echo(f"alphamesh {_version()}")
+        ctx.exit()
+
+
+@click.group(
+    cls=Commands,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 96},
+)
+@click.option(
+    "--version",
+    is_flag=True,
+    expose_value=False,
+    is_eager=True,
+    callback=_show_version,
+    help="Show the version and exit.",
+)
+def app() -> None:
+    """Turn a cloud of points into a mesh that keeps its holes: its alpha complex."""

@@ -1,0 +1,124 @@
+"""What all commands share: common options, errors as one message, exit codes."""
+
+from __future__ import annotations
+
+import errno
+import re
+import traceback
+from collections.abc import Sequence
+from typing import Any
+
+import click
+
+from alphamesh.cli import INTERRUPTED
+from alphamesh.errors import AlphameshError, ParameterError
+
+__all__ = [
+    "Command",
+    "Explained",
+    "json_option",
+    "quiet_option",
+    "threads_option",
+    "write_section",
+]
+
+_DEBUG = click.Option(
+    ["--debug"], is_flag=True, help="Show where in the program an error arose."
+)
+
+
+class Explained(click.ClickException):
+    """An error as one message on standard error."""
+
+    exit_code = 1
+
+    def show(self, file: Any = None) -> None:
+        """Print the message."""
+        click.echo(f"{click.style('Error:', fg='red')} {self.message}", err=True)
+
+
+class Misused(Explained):
+    """An error of the command line itself, such as a parameter out of range."""
+
+    exit_code = 2
+
+
+class Command(click.Command):
+    """A command whose expected errors end in a message and an exit code.
+
+    `examples` are lines for its help.
+    """
+
+    def __init__(self, *args: Any, examples: Sequence[str] = (), **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.params.append(_DEBUG)
+        self.examples = examples
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """End the help with the examples."""
+        write_section(formatter, "Examples", self.examples)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; translate what is known to go wrong."""
+        debug = ctx.params.pop("debug")
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            click.echo("Interrupted; no half-written file is left.", err=True)
+            raise click.exceptions.Exit(INTERRUPTED) from None
+        except (AlphameshError, ImportError, MemoryError, OSError) as error:
+            if getattr(error, "errno", None) == errno.EPIPE:
+                raise  # whoever read our output has heard enough: click ends quietly
+            if debug:
+                click.echo(traceback.format_exc(), err=True)
+            kind = Misused if isinstance(error, ParameterError) else Explained
+            raise kind(_message(error)) from None
+
+
+def write_section(formatter: click.HelpFormatter, title: str, lines: Sequence[str]) -> None:
+    """Add lines to a help text as they are."""
+    with formatter.section(title):
+        for line in lines:
+            formatter.write(f"{' ' * formatter.current_indent}{line}\n")
+
+
+# Errors are written for Python, where parameters are keywords; here they are options.
+_OPTION_OF = {
+    "file_format": "--format",
+    "n": "--points",
+    **{name: f"--{name}" for name in ("jitter", "replace", "invert", "threshold", "header")},
+    **{name: f"--{name}" for name in ("columns", "delimiter", "decimal", "comment")},
+    **{name: f"--{name}" for name in ("skip", "encoding", "key")},
+}
+_KEYWORD = re.compile(rf"\b({'|'.join(_OPTION_OF)})=(\([^)]*\)|'[^']*'|[\w.]*)")
+_SAMPLE_MASK = re.compile(r"\bsample_mask(\(.*?\))?")
+
+
+def _as_option(found: re.Match[str]) -> str:
+    """Return ``name=value`` as it is written on the command line."""
+    name, value = found.groups()
+    if value in {"True", "False"}:
+        return _OPTION_OF[name] if value == "True" else f"--no-{name}"
+    plain = re.sub(r"[()']", "", value).replace(", ", ",")
+    return f"{_OPTION_OF[name]} {plain}".rstrip()
+
+
+def _message(error: BaseException) -> str:
+    if isinstance(error, AlphameshError):
+        text = _KEYWORD.sub(_as_option, str(error))
+        return _SAMPLE_MASK.sub("alphamesh sample", text)
+    if isinstance(error, MemoryError):
+        return "not enough memory; try fewer points (--points), or thin the cloud out"
+    return f"{type(error).__name__}: {error} (--debug shows where)"
+
+
+json_option = click.option(
+    "--json", "as_json", is_flag=True, help="Print one JSON object instead of text."
+)
+quiet_option = click.option("-q", "--quiet", is_flag=True, help="Show no progress.")
+threads_option = click.option(
+    "--threads",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Use so many threads.  [default: one for each CPU]",
+)

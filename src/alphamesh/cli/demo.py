@@ -1,0 +1,139 @@
+"""``alphamesh demo``: a gallery of shapes whose holes are known."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from alphamesh.cli.command import Command, json_option, quiet_option, threads_option
+from alphamesh.cli.gallery import Exhibit, gallery_page
+from alphamesh.cli.outputs import check_targets, write_bytes
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import counted, print_json
+from alphamesh.cli.write_points import write_points
+from alphamesh.errors import FileWriteError, MissingLibraryError, ParameterError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+__all__ = ["command"]
+
+# Enough for a page, and a third of the bytes of the usual resolution.
+_DPI = 100
+
+_EXAMPLES = (
+    "alphamesh demo",
+    "alphamesh demo gallery --points 10000 --seed 4",
+    "alphamesh demo gallery --shape cheese --shape target",
+)
+
+
+@click.command("demo", cls=Command, examples=_EXAMPLES)
+@click.argument(
+    "folder", type=click.Path(path_type=Path, file_okay=False), default="alphamesh-demo"
+)
+@click.option(
+    "-s",
+    "--shape",
+    "names",
+    multiple=True,
+    metavar="NAME",
+    help="Show this shape only; can be given several times.  [default: all]",
+)
+@click.option(
+    "-n",
+    "--points",
+    "count",
+    type=click.IntRange(min=1),
+    default=2000,
+    show_default=True,
+    help="How many points to draw from each shape.",
+)
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
+@threads_option
+@json_option
+@quiet_option
+def command(folder: Path, names: tuple[str, ...], **options: Any) -> None:
+    """Write a gallery of demo shapes into FOLDER and a page that shows it.
+
+    For each shape: the mask image, the points drawn from it, the mesh, and a
+    picture of cloud, Delaunay triangulation and alpha complex. Open index.html
+    in a browser. FOLDER is alphamesh-demo if not given, and made if missing.
+    """
+    import alphamesh.plot  # noqa: F401 - if matplotlib is missing, say so before the work
+
+    chosen = _chosen(names)
+    _make(folder)
+    check_targets([folder / "index.html"])
+    exhibits = []
+    with Steps(quiet=options["quiet"]) as steps, steps.step("Gallery") as done:
+        for number, name in enumerate(chosen):
+            done(number / len(chosen))
+            exhibits.append(_exhibit(folder, name, options))
+        write_bytes(gallery_page(exhibits).encode(), folder / "index.html")
+    page = folder / "index.html"
+    if options["as_json"]:
+        print_json({"page": str(page), "shapes": [exhibit.facts() for exhibit in exhibits]})
+    else:
+        click.echo(f"{counted(len(exhibits), 'shape')} drawn; open {page} in a browser")
+
+
+def _chosen(names: tuple[str, ...]) -> list[str]:
+    """Return the names without repeats, or those of all shapes."""
+    from alphamesh.sampling import DEMO_SHAPES
+
+    unknown = [name for name in names if name not in DEMO_SHAPES]
+    if unknown:
+        raise ParameterError(
+            f"there is no demo shape {unknown[0]!r}; choose among: {', '.join(DEMO_SHAPES)}"
+        )
+    return list(dict.fromkeys(names or DEMO_SHAPES))
+
+
+def _make(folder: Path) -> None:
+    """Make the folder, though not the folders above it."""
+    try:
+        folder.mkdir(exist_ok=True)
+    except FileNotFoundError as error:
+        raise FileWriteError(
+            f"cannot make the folder {str(folder)!r}: {str(folder.parent)!r} does not exist; "
+            "create it first, or choose another place"
+        ) from error
+    except OSError as error:
+        raise FileWriteError(
+            f"cannot make the folder {str(folder)!r}: {error.strerror}; choose another place"
+        ) from error
+
+
+def _exhibit(folder: Path, name: str, options: dict[str, Any]) -> Exhibit:
+    """Make the files of one shape."""
+    from alphamesh.complex import AlphaComplex
+    from alphamesh.plot import figure_bytes, plot_overview
+    from alphamesh.sampling import DEMO_SHAPES, demo_cloud, demo_mask
+
+    points = demo_cloud(name, options["count"], seed=options["seed"])
+    built = AlphaComplex(points, threads=options["threads"])
+    choice = built.choose_radius()
+    shape = built.at(choice.radius)
+    exhibit = Exhibit(DEMO_SHAPES[name], choice, shape.counts, shape.euler_characteristic)
+    write_bytes(_mask_png(demo_mask(name)), folder / exhibit.mask)
+    write_points(points, folder / exhibit.cloud)
+    shape.save(folder / exhibit.mesh)
+    picture = figure_bytes(plot_overview(built, choice.radius), dpi=_DPI)
+    write_bytes(picture, folder / exhibit.picture)
+    return exhibit
+
+
+def _mask_png(mask: NDArray[np.bool_]) -> bytes:
+    """Return a mask as a picture, white inside the shape."""
+    try:
+        from PIL import Image
+    except ImportError as error:
+        raise MissingLibraryError.of("Pillow", "io", "Writing images") from error
+    target = io.BytesIO()
+    Image.fromarray(mask).save(target, format="png", optimize=True)
+    return target.getvalue()

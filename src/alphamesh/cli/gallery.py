@@ -1,0 +1,121 @@
+"""The page of the demo gallery: plain HTML beside the files that it shows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+from alphamesh.cli.summary import counted, number
+
+if TYPE_CHECKING:
+    from alphamesh.radius import RadiusChoice
+    from alphamesh.shapes import DemoShape
+
+__all__ = ["Exhibit", "gallery_page"]
+
+
+@dataclass(frozen=True, slots=True)
+class Exhibit:
+    """A demo shape, what was found of it, and the names of its files."""
+
+    shape: DemoShape
+    choice: RadiusChoice
+    counts: Mapping[str, int]
+    euler_characteristic: int
+
+    @property
+    def mask(self) -> str:
+        """File of the mask image."""
+        return f"{self.shape.name}-mask.png"
+
+    @property
+    def cloud(self) -> str:
+        """File of the points."""
+        return f"{self.shape.name}-cloud.csv"
+
+    @property
+    def mesh(self) -> str:
+        """File of the mesh."""
+        return f"{self.shape.name}-mesh.ply"
+
+    @property
+    def picture(self) -> str:
+        """File of the picture."""
+        return f"{self.shape.name}-overview.png"
+
+    def facts(self) -> dict[str, Any]:
+        """Return the summary for scripts."""
+        components, holes = self.shape.betti
+        return {
+            "name": self.shape.name,
+            "components": components,
+            "holes": holes,
+            "radius": self.choice.radius,
+            "rule": self.choice.rule,
+            **self.counts,
+            "euler_characteristic": self.euler_characteristic,
+            "files": [self.mask, self.cloud, self.mesh, self.picture],
+        }
+
+
+_STYLE = """
+  :root { color-scheme: light dark; }
+  body { font: 16px/1.5 system-ui, sans-serif; max-width: 75rem; margin: 2rem auto;
+         padding: 0 1rem; }
+  section { border-top: 1px solid #8884; padding: 1.5rem 0; }
+  h2 { margin: 0; }
+  p { margin: .25rem 0 1rem; max-width: 46rem; }
+  .row { display: flex; gap: 1rem; align-items: center; flex-wrap: wrap; }
+  .mask { width: 9rem; image-rendering: pixelated; border: 1px solid #8884; }
+  .overview { flex: 1 1 40rem; min-width: 0; max-width: 100%; background: white; }
+  .files a { margin-right: 1rem; }
+"""
+
+_INTRODUCTION = """From each mask on the left, points were drawn at random. Their Delaunay
+triangulation fills every hole; the alpha complex keeps only the triangles and edges that
+balls of one radius around the points hold together. The radius is the smallest at which no
+point is left out of the triangles: where points happen to lie far apart, small gaps stay."""
+
+
+def gallery_page(exhibits: Sequence[Exhibit]) -> str:
+    """Return the page that shows the exhibits."""
+    sections = "\n".join(_section(exhibit) for exhibit in exhibits)
+    return f"""<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>alphamesh: demo shapes</title>
+<style>{_STYLE}</style>
+<h1>Demo shapes</h1>
+<p>{_INTRODUCTION}</p>
+{sections}
+</html>
+"""
+
+
+def _section(exhibit: Exhibit) -> str:
+    name = escape(exhibit.shape.name)
+    components, holes = exhibit.shape.betti
+    counts = exhibit.counts
+    description = escape(exhibit.shape.description)
+    text = (
+        f"{description[0].upper()}{description[1:]}: {counted(components, 'component')}, "
+        f"{counted(holes, 'hole')}. "
+        f"At radius {number(exhibit.choice.radius)}, "
+        f"{counted(counts['triangles'], 'triangle')} and "
+        f"{counted(counts['singular_edges'], 'singular edge')}."
+    )
+    files = (exhibit.mask, exhibit.cloud, exhibit.mesh, exhibit.picture)
+    links = "".join(f'<a href="{file}">{file}</a>' for file in files)
+    return f"""<section id="{name}">
+<h2>{name}</h2>
+<p>{text}</p>
+<div class="row">
+<img class="mask" src="{exhibit.mask}" alt="mask of {name}">
+<img class="overview" src="{exhibit.picture}"
+ alt="cloud, Delaunay triangulation and alpha complex of {name}">
+</div>
+<p class="files">{links}</p>
+</section>"""

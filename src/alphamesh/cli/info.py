@@ -1,0 +1,285 @@
+"""``alphamesh info``: what is in a file."""
+
+from __future__ import annotations
+
+import math
+import zipfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
+
+from alphamesh.cli.command import Command, json_option, quiet_option, threads_option
+from alphamesh.cli.inputs import (
+    DEMO,
+    IMAGE,
+    MESH,
+    InputOptions,
+    demo_shape,
+    kind_of,
+    load,
+    table_options,
+)
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import counted, number, points_text, print_json, print_lines
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from alphamesh.filtration import Filtration
+
+__all__ = ["command", "nearest_distances"]
+
+_NOUNS = {
+    "vertex": ("vertex", "vertices"),
+    "line": ("edge", "edges"),
+    "triangle": ("triangle", "triangles"),
+    "tetra": ("tetrahedron", "tetrahedra"),
+}
+_HEADER_BYTES = 1 << 16
+_DIMENSIONS = {
+    -1: "no points",
+    0: "0, all at one place",
+    1: "1, all on one line",
+    2: "2",
+}
+
+_EXAMPLES = (
+    "alphamesh info points.csv",
+    "alphamesh info trees.csv --columns easting,northing --json",
+    "alphamesh info shape.png",
+    "alphamesh info mesh.vtu",
+)
+
+
+@click.command("info", cls=Command, examples=_EXAMPLES)
+@click.argument("source", metavar="FILE")
+@table_options
+@threads_option
+@json_option
+@quiet_option
+def command(source: str, **options: Any) -> None:
+    """Tell what is in a file of points, an image or a mesh.
+
+    Of points: how many, where, how far apart, and the radius that would be
+    chosen for them. FILE can be "-" for a table on standard input, or
+    demo:NAME for a built-in shape.
+    """
+    threads, as_json, quiet = (options.pop(name) for name in ("threads", "as_json", "quiet"))
+    given = InputOptions(**options)
+    kind = kind_of(source)
+    with Steps(quiet=quiet) as steps:
+        if kind == DEMO:
+            facts, lines = _demo(source)
+        elif kind == IMAGE:
+            facts, lines = _image(source, steps)
+        elif kind == MESH:
+            facts, lines = _mesh(source, steps)
+        else:
+            facts, lines = _points_or_mesh(source, given, threads, steps)
+    if as_json:
+        print_json(facts)
+    else:
+        print_lines(lines)
+
+
+Told = tuple[dict[str, Any], dict[str, str]]
+
+
+def _points_or_mesh(
+    source: str, options: InputOptions, threads: int | None, steps: Steps
+) -> Told:
+    """Tell of a file whose format holds points or meshes."""
+    suffix = Path(source).suffix.lower()
+    if suffix in {".npz", ".ply"} and Path(source).is_file():
+        if suffix == ".npz" and _is_mesh_archive(source):
+            return _mesh(source, steps)
+        elements = _ply_elements(source) if suffix == ".ply" else {}
+        if elements.get("face", 0) or elements.get("edge", 0):
+            return _ply(source, elements, steps)
+    return _points(source, options, threads, steps)
+
+
+def _points(source: str, options: InputOptions, threads: int | None, steps: Steps) -> Told:
+    from alphamesh.filtration import filtration
+    from alphamesh.radius import choose_radius
+
+    given = load(source, options, steps)
+    with steps.step(f"Triangulating {counted(len(given.points), 'point')}") as done:
+        complex_ = filtration(given.points, threads=threads, progress=done)
+    count, distinct = len(complex_.points), len(complex_.simplices[0])
+    facts: dict[str, Any] = {
+        **given.facts,
+        "points": count,
+        "duplicates": count - distinct,
+        "dimension": complex_.dimension,
+    }
+    lines = {
+        "File": given.text,
+        "Points": points_text(count, count - distinct),
+        "Dimension": _DIMENSIONS[complex_.dimension],
+    }
+    if count:
+        _tell_bounds(complex_.points, facts, lines)
+        _tell_spacing(complex_, facts, lines)
+        choice = choose_radius(complex_)
+        facts |= {"radius": choice.radius, "rule": choice.rule, "reason": choice.reason}
+        lines["Suggested radius"] = f"{number(choice.radius)}  ({choice.rule})"
+        lines[""] = choice.reason
+    return facts, lines
+
+
+def _tell_bounds(
+    points: NDArray[np.float64], facts: dict[str, Any], lines: dict[str, str]
+) -> None:
+    low, high = points.min(axis=0), points.max(axis=0)
+    facts["bounds"] = [low, high]
+    for axis, name in zip(range(len(low)), "xyz", strict=False):
+        lines[name] = f"{number(low[axis])} to {number(high[axis])}"
+
+
+def _tell_spacing(complex_: Filtration, facts: dict[str, Any], lines: dict[str, str]) -> None:
+    nearest = nearest_distances(complex_)
+    if len(nearest) == 0:
+        return
+    low, middle, high = (float(np.quantile(nearest, share)) for share in (0, 0.5, 1))
+    facts["spacing"] = {"smallest": low, "median": middle, "largest": high}
+    lines["Spacing"] = (
+        f"{number(middle)} to the nearest neighbour (median; {number(low)} to {number(high)})"
+    )
+
+
+def nearest_distances(filtration: Filtration) -> NDArray[np.float64]:
+    """Return the distance from each distinct point to the nearest other one.
+
+    The nearest neighbour of a point is among its neighbours in the Delaunay
+    triangulation, so the edges suffice.
+
+    Parameters
+    ----------
+    filtration : Filtration
+
+    Returns
+    -------
+    (m,) float64 array
+        In the order of the vertices; empty for fewer than two distinct points.
+    """
+    vertices, edges, _ = filtration.simplices
+    if len(edges) == 0:
+        return np.empty(0)
+    ends = filtration.points[edges]
+    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    nearest = np.full(len(filtration.points), math.inf)
+    for side in (0, 1):
+        np.minimum.at(nearest, edges[:, side], lengths)
+    return nearest[vertices[:, 0]]
+
+
+def _demo(source: str) -> Told:
+    shape = demo_shape(source)
+    components, holes = shape.betti
+    facts = {
+        "kind": DEMO,
+        "name": source,
+        "description": shape.description,
+        "components": components,
+        "holes": holes,
+    }
+    topology = f"{counted(components, 'component')}, {counted(holes, 'hole')}"
+    return facts, {"Demo shape": f"{shape.name}: {shape.description}", "Topology": topology}
+
+
+def _image(source: str, steps: Steps) -> Told:
+    from alphamesh.io.images import read_mask
+
+    with steps.step(f"Reading {source}"):
+        mask = read_mask(source)
+    height, width = mask.shape
+    inside = int(np.count_nonzero(mask))
+    facts = {
+        "kind": IMAGE,
+        "name": source,
+        "width": width,
+        "height": height,
+        "pixels_inside": inside,
+    }
+    return facts, {
+        "File": f"{source} (image)",
+        "Size": f"{width} x {height} pixels",
+        "Inside": f"{counted(inside, 'pixel')} brighter than 0.5 ({inside / mask.size:.1%})",
+        "Next": f"alphamesh mesh {source} -o mesh.vtu",
+    }
+
+
+def _mesh(source: str, steps: Steps) -> Told:
+    from alphamesh.io.meshes import mesh_format, read_mesh
+
+    with steps.step(f"Reading {source}"):
+        mesh = read_mesh(source)
+    cells = {kind: len(rows) for kind, rows in mesh.cells.items() if len(rows)}
+    facts: dict[str, Any] = {
+        "kind": MESH,
+        "name": source,
+        "format": mesh_format(source).name,
+        "points": len(mesh.points),
+        "cells": cells,
+        "point_data": list(mesh.point_data),
+        "cell_data": list(mesh.cell_data),
+    }
+    lines = {
+        "File": f"{source} ({facts['format']} mesh)",
+        "Points": f"{len(mesh.points):,}",
+        "Cells": ", ".join(counted(count, *_NOUNS[kind]) for kind, count in cells.items())
+        or "none",
+    }
+    if len(mesh.points):
+        _tell_bounds(mesh.points, facts, lines)
+    for label, data in (("Point data", mesh.point_data), ("Cell data", mesh.cell_data)):
+        if data:
+            lines[label] = ", ".join(data)
+    return facts, lines
+
+
+def _ply(source: str, counts: dict[str, int], steps: Steps) -> Told:
+    """Tell what a PLY file holds; its elements are more than most readers know."""
+    from alphamesh.io.points import read_points
+
+    with steps.step(f"Reading {source}"):
+        points = read_points(source)
+    facts: dict[str, Any] = {
+        "kind": MESH,
+        "name": source,
+        "format": "PLY",
+        "points": len(points),
+        "cells": {name: count for name, count in counts.items() if name != "vertex"},
+    }
+    cells = ", ".join(counted(count, name) for name, count in facts["cells"].items())
+    lines = {
+        "File": f"{source} (PLY mesh)",
+        "Points": f"{len(points):,}",
+        "Elements": cells,
+    }
+    if len(points):
+        _tell_bounds(points, facts, lines)
+    return facts, lines
+
+
+def _ply_elements(source: str) -> dict[str, int]:
+    """Return the count of each element that the header of a PLY file tells."""
+    with Path(source).open("rb") as file:
+        words = file.read(_HEADER_BYTES).partition(b"end_header")[0].split()
+    return {
+        name.decode(errors="replace"): int(count)
+        for word, name, count in zip(words, words[1:], words[2:], strict=False)
+        if word == b"element" and count.isdigit()
+    }
+
+
+def _is_mesh_archive(source: str) -> bool:
+    """Return whether an NPZ file holds a mesh, not just points."""
+    try:
+        with zipfile.ZipFile(source) as archive:
+            return "triangles.npy" in archive.namelist()
+    except zipfile.BadZipFile:
+        return False  # whoever reads it next explains

@@ -1,0 +1,282 @@
+"""What a command is given: an image, a table of points, or a demo shape."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+import numpy as np
+from numpy.typing import NDArray
+
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import counted
+from alphamesh.cli.types import ColumnsType
+
+if TYPE_CHECKING:
+    from alphamesh.sampling import DemoShape
+
+__all__ = [
+    "DEMO",
+    "IMAGE",
+    "MESH",
+    "POINTS",
+    "Input",
+    "InputOptions",
+    "demo_shape",
+    "kind_of",
+    "load",
+    "sampling_options",
+    "table_options",
+]
+
+DEMO, IMAGE, MESH, POINTS = "demo", "image", "mesh", "points"
+
+_DEMO_PREFIX = "demo:"
+_IMAGE_SUFFIXES = frozenset(
+    {".avif", ".bmp", ".gif", ".ico", ".jp2", ".jpeg", ".jpg", ".pbm", ".pcx", ".pgm", ".png"}
+    | {".pnm", ".ppm", ".qoi", ".tga", ".tif", ".tiff", ".webp"}
+)
+_MESH_SUFFIXES = frozenset({".vtu", ".vtk", ".msh", ".obj", ".off", ".stl"})
+
+_DEFAULT_COUNT = 2000
+_DEFAULT_THRESHOLD = 0.5
+_DEFAULT_SEED = 0
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InputOptions:
+    """Options of input; None for what the command line does not say."""
+
+    count: int | None = None
+    threshold: float | None = None
+    invert: bool | None = None
+    seed: int | None = None
+    jitter: bool | None = None
+    replace: bool | None = None
+    columns: tuple[str | int, ...] | None = None
+    file_format: str | None = None
+    delimiter: str | None = None
+    decimal: str | None = None
+    header: bool | None = None
+    skip: int | None = None
+    comment: str | None = None
+    encoding: str | None = None
+    key: str | None = None
+
+    def table(self) -> dict[str, Any]:
+        """Return what is said of a table, as keywords of ``read_points``."""
+        given = {name: getattr(self, name) for name in _TABLE}
+        return {name: value for name, value in given.items() if value is not None}
+
+    def refuse(self, names: dict[str, str], source: str, what: str) -> None:
+        """Raise a usage error if an option is given that has no meaning for `source`."""
+        for name, option in names.items():
+            if getattr(self, name) is not None:
+                raise click.UsageError(f"{option} has no meaning for {source!r}, {what}")
+
+
+_SAMPLING = {
+    "count": "--points",
+    "threshold": "--threshold",
+    "invert": "--invert",
+    "seed": "--seed",
+    "jitter": "--jitter/--no-jitter",
+    "replace": "--replace",
+}
+_OF_IMAGES = {name: _SAMPLING[name] for name in ("threshold", "invert")}
+_TABLE = {
+    "columns": "--columns",
+    "file_format": "--format",
+    "delimiter": "--delimiter",
+    "decimal": "--decimal",
+    "header": "--header/--no-header",
+    "skip": "--skip",
+    "comment": "--comment",
+    "encoding": "--encoding",
+    "key": "--key",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Input:
+    """A cloud, and where it comes from, for people (`text`) and scripts (`facts`)."""
+
+    points: NDArray[np.float64]
+    text: str
+    facts: dict[str, Any]
+
+
+def sampling_options(command: Function) -> Function:
+    """Add the options that tell how points are drawn from an image."""
+    options = [
+        click.option(
+            "-n",
+            "--points",
+            "count",
+            type=click.IntRange(min=1),
+            metavar="N",
+            help=f"Draw so many points from an image.  [default: {_DEFAULT_COUNT}]",
+        ),
+        click.option(
+            "--threshold",
+            type=float,
+            metavar="T",
+            help="Pixels brighter than T, between 0 (black) and 1 (white), are inside.  "
+            f"[default: {_DEFAULT_THRESHOLD}]",
+        ),
+        click.option(
+            "--invert",
+            is_flag=True,
+            default=None,
+            help="Dark pixels are inside instead: for dark drawings on light ground.",
+        ),
+        click.option(
+            "--seed",
+            type=click.IntRange(min=0),
+            metavar="N",
+            help="Start of the random numbers: the same seed draws the same points.  "
+            f"[default: {_DEFAULT_SEED}]",
+        ),
+        click.option(
+            "--jitter/--no-jitter",
+            default=None,
+            help="Anywhere inside the pixels, or on their lower left corners.  "
+            "[default: jitter]",
+        ),
+        click.option(
+            "--replace",
+            is_flag=True,
+            default=None,
+            help="Draw each point's pixel independently, instead of evenly.",
+        ),
+    ]
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def table_options(command: Function) -> Function:
+    """Add the options that tell how a table of points is laid out."""
+    flags = {
+        "--columns": ("X,Y", "Table: columns by name or by number from 0.  [default: x,y]"),
+        "--format": ("NAME", "Table: its format, such as csv.  [default: the extension's]"),
+        "--delimiter": ("CHAR", "Text: what stands between columns.  [default: found]"),
+        "--decimal": ("CHAR", "Text: the decimal mark, . or ,  [default: .]"),
+        "--header/--no-header": (None, "Text: the first line has names.  [default: found]"),
+        "--skip": ("N", "Text: lines to skip at the top.  [default: 0]"),
+        "--comment": ("CHAR", "Text: what begins a comment.  [default: #]"),
+        "--encoding": ("NAME", "Text: its encoding.  [default: utf-8]"),
+        "--key": ("NAME", "NPZ: the array that holds the points.  [default: points]"),
+    }
+    kinds = {"--columns": ColumnsType(), "--skip": click.IntRange(min=0)}
+    for flag, (metavar, text) in reversed(flags.items()):
+        names = [flag, "file_format"] if flag == "--format" else [flag]
+        option = click.option(
+            *names, metavar=metavar, help=text, default=None, type=kinds.get(flag)
+        )
+        command = option(command)
+    return command
+
+
+def kind_of(source: str) -> str:
+    """Return what `source` is by its name: "demo", "image", "mesh" or "points"."""
+    if source.startswith(_DEMO_PREFIX):
+        return DEMO
+    suffix = PurePath(source).suffix.lower()
+    if suffix in _IMAGE_SUFFIXES:
+        return IMAGE
+    return MESH if suffix in _MESH_SUFFIXES else POINTS
+
+
+def load(source: str, options: InputOptions, steps: Steps) -> Input:
+    """Return the cloud that `source` stands for.
+
+    Raises
+    ------
+    click.UsageError
+        If an option has no meaning for such a source.
+    AlphameshError
+        If it cannot be read.
+    """
+    kind = kind_of(source)
+    if kind == MESH:
+        raise click.UsageError(
+            f"{source!r} is a mesh file already; give an image or points "
+            f"(alphamesh info {source} tells what is in it)"
+        )
+    if kind == POINTS:
+        options.refuse(_SAMPLING, source, "which is a table: its points are taken as they are")
+        return _load_table(source, options, steps)
+    options.refuse(_TABLE, source, "which is no table")
+    if kind == DEMO:
+        options.refuse(_OF_IMAGES, source, "a demo shape, which has no shades")
+    return _load_pixels(source, options, steps)
+
+
+def _load_table(source: str, options: InputOptions, steps: Steps) -> Input:
+    from alphamesh.io.points import read_points
+
+    name = "standard input" if source == "-" else source
+    with steps.step(f"Reading {name}"):
+        points = read_points(source, **options.table())
+    return Input(points, f"{name} (points)", {"kind": POINTS, "name": source})
+
+
+def _load_pixels(source: str, options: InputOptions, steps: Steps) -> Input:
+    """Draw points from an image or a demo shape."""
+    from alphamesh.io.images import read_mask
+    from alphamesh.sampling import demo_mask, sample_pixels
+
+    count = _DEFAULT_COUNT if options.count is None else options.count
+    threshold = _DEFAULT_THRESHOLD if options.threshold is None else options.threshold
+    seed = _DEFAULT_SEED if options.seed is None else options.seed
+    kind = kind_of(source)
+    with steps.step(f"Drawing {counted(count, 'point')} from {source}"):
+        if kind == DEMO:
+            mask = demo_mask(demo_shape(source).name)
+        else:
+            mask = read_mask(source, threshold=threshold, invert=bool(options.invert))
+        points = sample_pixels(
+            mask,
+            count,
+            seed=seed,
+            jitter=options.jitter is not False,
+            replace=bool(options.replace),
+        )
+    height, width = mask.shape
+    inside = int(np.count_nonzero(mask))
+    noun = "demo shape" if kind == DEMO else "image"
+    return Input(
+        points,
+        f"{source} ({noun}, {width} x {height}, {counted(inside, 'pixel')} inside)",
+        {
+            "kind": kind,
+            "name": source,
+            "width": width,
+            "height": height,
+            "pixels_inside": inside,
+            "seed": seed,
+        },
+    )
+
+
+def demo_shape(source: str) -> DemoShape:
+    """Return the shape that ``demo:NAME`` stands for.
+
+    Raises
+    ------
+    click.UsageError
+        If there is none of that name; the message lists those that there are.
+    """
+    from alphamesh.sampling import DEMO_SHAPES
+
+    name = source.removeprefix(_DEMO_PREFIX)
+    if name not in DEMO_SHAPES:
+        listed = ", ".join(DEMO_SHAPES)
+        raise click.UsageError(f"there is no demo shape {name!r}; choose among: {listed}")
+    return DEMO_SHAPES[name]

@@ -1,0 +1,100 @@
+"""``alphamesh sample``: points from a mask image."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from alphamesh.cli.command import Command, json_option, quiet_option
+from alphamesh.cli.inputs import (
+    DEMO,
+    IMAGE,
+    Input,
+    InputOptions,
+    kind_of,
+    load,
+    sampling_options,
+)
+from alphamesh.cli.outputs import Output, Outputs, check_targets
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import print_json, print_lines, size_text
+from alphamesh.cli.types import STREAM, PointsFile
+from alphamesh.cli.write_points import csv_text, write_points
+
+__all__ = ["command"]
+
+_EXAMPLES = (
+    "alphamesh sample shape.png --points 5000 -o cloud.csv",
+    "alphamesh sample scan.tif --threshold 0.2 --seed 3 -o cloud.npy -o cloud.parquet",
+    "alphamesh sample demo:target -o - | alphamesh info -",
+)
+
+
+@click.command("sample", cls=Command, examples=_EXAMPLES)
+@click.argument("source", metavar="IMAGE")
+@click.option(
+    "-o",
+    "--output",
+    "files",
+    type=PointsFile(),
+    multiple=True,
+    required=True,
+    help='Write the points here: .csv, .tsv, .txt, .npy, .npz or .parquet; "-" is a table on '
+    "standard output. Can be given several times.",
+)
+@sampling_options
+@json_option
+@quiet_option
+def command(source: str, files: tuple[Path, ...], **options: Any) -> None:
+    """Draw points from the white pixels of a mask image.
+
+    IMAGE is any image that Pillow reads, or demo:NAME for a built-in shape.
+    Coordinates are in pixels, x to the right and y upwards, from the lower
+    left corner of the image.
+    """
+    as_json, quiet = options.pop("as_json"), options.pop("quiet")
+    if as_json and STREAM in files:
+        raise click.UsageError("--json and -o - would both use standard output")
+    if kind_of(source) not in {IMAGE, DEMO}:
+        raise click.UsageError(f"{source!r} is no image; points are drawn from images only")
+    check_targets(files, source)
+    outputs = Outputs()
+    with Steps(quiet=quiet) as steps:
+        given = load(source, InputOptions(**options), steps)
+        named = [path for path in files if path != STREAM]
+        outputs.write(
+            [Output(path, lambda path: write_points(given.points, path)) for path in named],
+            steps,
+        )
+    _report(given, outputs, as_json=as_json, stream=STREAM in files)
+    outputs.raise_failures()
+
+
+def _report(given: Input, outputs: Outputs, *, as_json: bool, stream: bool) -> None:
+    """Print the points or what has become of them."""
+    sizes = outputs.sizes()
+    if stream:
+        click.echo("x,y")
+        for lines in csv_text(given.points):
+            click.echo(lines, nl=False)
+    elif as_json:
+        facts = [{"path": path, "bytes": size} for path, size in sizes.items()]
+        print_json(
+            {
+                "input": given.facts,
+                "points": len(given.points),
+                "files": facts,
+                "failures": outputs.failures,
+            }
+        )
+    else:
+        written = [f"{path}  ({size_text(size)})" for path, size in sizes.items()]
+        print_lines(
+            {
+                "Input": given.text,
+                "Points": f"{len(given.points):,}",
+                "Written": "\n".join(written) or "nothing",
+            }
+        )
