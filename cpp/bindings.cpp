@@ -19,7 +19,7 @@
 #include "restricted2.hpp"
 #include "rings2.hpp"
 #include "selftest.hpp"
-#include "spatial_sort2.hpp"
+#include "spatial_sort.hpp"
 
 namespace nb = nanobind;
 using namespace alphamesh;
@@ -233,7 +233,7 @@ nb::object signs(const Tuples2<K>& tuples, Sign&& sign) {
     double scaled[2 * K];
     for (std::size_t i = 0; i < n; ++i) {
       const double* t = tuples.data() + 2 * K * i;
-      const int exponent = range_exponent2(t, K, job);
+      const int exponent = range_exponent<Plane>(t, K, job);
       if (exponent != 0) {
         const PowerOfTwo factor(exponent);
         for (std::size_t k = 0; k < 2 * K; ++k) scaled[k] = factor * t[k];

@@ -6,7 +6,7 @@
 
 #include "memory.hpp"
 #include "parallel.hpp"
-#include "spatial_sort2.hpp"
+#include "spatial_sort.hpp"
 
 namespace alphamesh {
 

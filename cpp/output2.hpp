@@ -7,7 +7,7 @@
 #include "delaunay2.hpp"
 #include "memory.hpp"
 #include "parallel.hpp"
-#include "spatial_sort2.hpp"
+#include "spatial_sort.hpp"
 
 namespace alphamesh {
 

@@ -75,8 +75,8 @@ _STYLE = """
 
 _INTRODUCTION = """From each mask on the left, points were drawn at random. Their Delaunay
 triangulation fills every hole; the alpha complex keeps only the triangles and edges that
-balls of one radius around the points hold together. The radius is the smallest at which no
-point is left out of the triangles: where points happen to lie far apart, small gaps stay."""
+balls of one radius around the points hold together. Why that radius was chosen stands with
+each shape; where points happen to lie far apart, small gaps may stay."""
 
 
 def gallery_page(exhibits: Sequence[Exhibit]) -> str:
@@ -105,7 +105,7 @@ def _section(exhibit: Exhibit) -> str:
         f"{counted(holes, 'hole')}. "
         f"At radius {number(exhibit.choice.radius)}, "
         f"{counted(counts['triangles'], 'triangle')} and "
-        f"{counted(counts['singular_edges'], 'singular edge')}."
+        f"{counted(counts['singular_edges'], 'singular edge')}. {escape(exhibit.choice.reason)}"
     )
     files = (exhibit.mask, exhibit.cloud, exhibit.mesh, exhibit.picture)
     links = "".join(f'<a href="{file}">{file}</a>' for file in files)

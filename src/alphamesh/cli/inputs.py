@@ -102,6 +102,66 @@ _TABLE = {
 }
 
 
+_SAMPLING_OPTIONS: dict[str, dict[str, Any]] = {
+    "count": {
+        "type": click.IntRange(min=1),
+        "metavar": "N",
+        "help": f"Draw so many points from an image.  [default: {_DEFAULT_COUNT}]",
+    },
+    "threshold": {
+        "type": float,
+        "metavar": "T",
+        "help": "Pixels brighter than T, between 0 (black) and 1 (white), are inside.  "
+        f"[default: {_DEFAULT_THRESHOLD}]",
+    },
+    "invert": {
+        "is_flag": True,
+        "help": "Dark pixels are inside instead: for dark drawings on light ground.",
+    },
+    "seed": {
+        "type": click.IntRange(min=0),
+        "metavar": "N",
+        "help": "Start of the random numbers: the same seed draws the same points.  "
+        f"[default: {_DEFAULT_SEED}]",
+    },
+    "jitter": {
+        "help": "Anywhere inside the pixels, or on their lower left corners.  [default: jitter]"
+    },
+    "replace": {
+        "is_flag": True,
+        "help": "Draw each point's pixel independently, instead of evenly.",
+    },
+}
+_TABLE_OPTIONS: dict[str, dict[str, Any]] = {
+    "columns": {
+        "type": ColumnsType(),
+        "metavar": "X,Y",
+        "help": "Table: columns by name or by number from 0.  [default: x,y]",
+    },
+    "file_format": {
+        "metavar": "NAME",
+        "help": "Table: its format, such as csv.  [default: the extension's]",
+    },
+    "delimiter": {
+        "metavar": "CHAR",
+        "help": "Text: what stands between columns.  [default: found]",
+    },
+    "decimal": {"metavar": "CHAR", "help": "Text: the decimal mark, . or ,  [default: .]"},
+    "header": {"help": "Text: the first line has names.  [default: found]"},
+    "skip": {
+        "type": click.IntRange(min=0),
+        "metavar": "N",
+        "help": "Text: lines to skip at the top.  [default: 0]",
+    },
+    "comment": {"metavar": "CHAR", "help": "Text: what begins a comment.  [default: #]"},
+    "encoding": {"metavar": "NAME", "help": "Text: its encoding.  [default: utf-8]"},
+    "key": {
+        "metavar": "NAME",
+        "help": "NPZ: the array that holds the points.  [default: points]",
+    },
+}
+
+
 @dataclass(frozen=True, slots=True)
 class Input:
     """A cloud, and where it comes from, for people (`text`) and scripts (`facts`)."""
@@ -113,73 +173,20 @@ class Input:
 
 def sampling_options(command: Function) -> Function:
     """Add the options that tell how points are drawn from an image."""
-    options = [
-        click.option(
-            "-n",
-            "--points",
-            "count",
-            type=click.IntRange(min=1),
-            metavar="N",
-            help=f"Draw so many points from an image.  [default: {_DEFAULT_COUNT}]",
-        ),
-        click.option(
-            "--threshold",
-            type=float,
-            metavar="T",
-            help="Pixels brighter than T, between 0 (black) and 1 (white), are inside.  "
-            f"[default: {_DEFAULT_THRESHOLD}]",
-        ),
-        click.option(
-            "--invert",
-            is_flag=True,
-            default=None,
-            help="Dark pixels are inside instead: for dark drawings on light ground.",
-        ),
-        click.option(
-            "--seed",
-            type=click.IntRange(min=0),
-            metavar="N",
-            help="Start of the random numbers: the same seed draws the same points.  "
-            f"[default: {_DEFAULT_SEED}]",
-        ),
-        click.option(
-            "--jitter/--no-jitter",
-            default=None,
-            help="Anywhere inside the pixels, or on their lower left corners.  "
-            "[default: jitter]",
-        ),
-        click.option(
-            "--replace",
-            is_flag=True,
-            default=None,
-            help="Draw each point's pixel independently, instead of evenly.",
-        ),
-    ]
-    for option in reversed(options):
-        command = option(command)
-    return command
+    return _with_options(command, _SAMPLING_OPTIONS)
 
 
 def table_options(command: Function) -> Function:
     """Add the options that tell how a table of points is laid out."""
-    flags = {
-        "--columns": ("X,Y", "Table: columns by name or by number from 0.  [default: x,y]"),
-        "--format": ("NAME", "Table: its format, such as csv.  [default: the extension's]"),
-        "--delimiter": ("CHAR", "Text: what stands between columns.  [default: found]"),
-        "--decimal": ("CHAR", "Text: the decimal mark, . or ,  [default: .]"),
-        "--header/--no-header": (None, "Text: the first line has names.  [default: found]"),
-        "--skip": ("N", "Text: lines to skip at the top.  [default: 0]"),
-        "--comment": ("CHAR", "Text: what begins a comment.  [default: #]"),
-        "--encoding": ("NAME", "Text: its encoding.  [default: utf-8]"),
-        "--key": ("NAME", "NPZ: the array that holds the points.  [default: points]"),
-    }
-    kinds = {"--columns": ColumnsType(), "--skip": click.IntRange(min=0)}
-    for flag, (metavar, text) in reversed(flags.items()):
-        names = [flag, "file_format"] if flag == "--format" else [flag]
-        option = click.option(
-            *names, metavar=metavar, help=text, default=None, type=kinds.get(flag)
-        )
-        command = option(command)
+    return _with_options(command, _TABLE_OPTIONS)
+
+
+def _with_options(command: Function, options: dict[str, dict[str, Any]]) -> Function:
+    """Add options that are None unless given, under the names of `InputOptions`."""
+    for name, settings in reversed(options.items()):
+        flags = {**_SAMPLING, **_TABLE}[name]
+        short = ["-n"] if name == "count" else []
+        command = click.option(*short, flags, name, default=None, **settings)(command)
     return command
 
 

@@ -27,7 +27,7 @@ __all__ = ["command"]
 
 _EXAMPLES = (
     "alphamesh sample shape.png --points 5000 -o cloud.csv",
-    "alphamesh sample scan.tif --threshold 0.2 --seed 3 -o cloud.npy -o cloud.parquet",
+    "alphamesh sample scan.tif --threshold 0.2 --seed 3 -o cloud.npy -o cloud.csv",
     "alphamesh sample demo:target -o - | alphamesh info -",
 )
 
@@ -41,7 +41,7 @@ _EXAMPLES = (
     type=PointsFile(),
     multiple=True,
     required=True,
-    help='Write the points here: .csv, .tsv, .txt, .npy, .npz or .parquet; "-" is a table on '
+    help='Write the points here: .csv, .tsv, .txt, .npy or .npz; "-" is a table on '
     "standard output. Can be given several times.",
 )
 @sampling_options

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -11,7 +10,6 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from alphamesh.errors import MissingLibraryError
 from alphamesh.io._atomic import atomic_path
 
 __all__ = ["POINT_WRITERS", "csv_text", "write_points"]
@@ -35,8 +33,6 @@ def write_points(points: Points, path: Path) -> None:
     ------
     FileWriteError
         If it cannot be written; nothing is left behind.
-    MissingLibraryError
-        If the format needs a library that is not installed.
     """
     write = POINT_WRITERS[path.suffix.lower()]
     with atomic_path(path) as temporary, temporary.open("wb") as file:
@@ -67,18 +63,6 @@ def _npz(points: Points, file: BinaryIO) -> None:
     np.savez(file, points=points)
 
 
-def _parquet(points: Points, file: BinaryIO) -> None:
-    try:
-        import pyarrow
-        from pyarrow import parquet
-    except ImportError as error:
-        raise MissingLibraryError.of("pyarrow", "io", "Writing Parquet files") from error
-    buffer = io.BytesIO()
-    columns = {name: np.ascontiguousarray(points[:, k]) for k, name in enumerate("xy")}
-    parquet.write_table(pyarrow.table(columns), buffer)
-    file.write(buffer.getbuffer())
-
-
 POINT_WRITERS: Mapping[str, Callable[[Points, BinaryIO], None]] = MappingProxyType(
     {
         ".csv": _table(",", "x,y\n"),
@@ -86,7 +70,6 @@ POINT_WRITERS: Mapping[str, Callable[[Points, BinaryIO], None]] = MappingProxyTy
         ".txt": _table(" ", ""),
         ".npy": _npy,
         ".npz": _npz,
-        ".parquet": _parquet,
     }
 )
 """How to write each format, by file extension."""

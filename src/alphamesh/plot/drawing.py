@@ -29,7 +29,7 @@ __all__ = ["Canvas", "Drawing", "new_figure", "plot_cloud"]
 _RASTER_FROM = 20_000
 
 # Simplices per artist: one artist is drawn in one call that no Ctrl-C interrupts.
-_PER_ARTIST = 200_000
+_PER_ARTIST = 100_000
 
 
 @dataclass(frozen=True)
@@ -52,9 +52,7 @@ class Drawing:
     @property
     def figure(self) -> Figure:
         """The figure that holds the axes."""
-        figure = self.axes.get_figure(root=True)
-        assert figure is not None
-        return figure
+        return self.axes.figure.figure  # that around all subfigures
 
     def _repr_png_(self) -> bytes | None:
         """Show a figure of our own in a notebook; pyplot shows the others."""

@@ -113,7 +113,7 @@ def _on_paper(points: Points, ax: Axes) -> float:
     if spacing == float("inf"):
         return spacing
     box = ax.get_window_extent()
-    dpi = ax.get_figure(root=True).dpi  # type: ignore[union-attr]
+    dpi = ax.figure.figure.dpi  # of the figure around all subfigures
     extent = points.max(axis=0) - points.min(axis=0)
     shares = [
         spacing / side * room

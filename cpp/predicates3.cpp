@@ -1,0 +1,146 @@
+#include "predicates3.hpp"
+
+#include <algorithm>
+
+#include "big.hpp"
+#include "exact.hpp"
+
+namespace alphamesh {
+namespace {
+
+Vector3<Dd> difference(Point3 a, Point3 b) {
+  return {two_diff(a.x, b.x), two_diff(a.y, b.y), two_diff(a.z, b.z)};
+}
+
+Vector3<Big> big(const Vector3<Dd>& v) { return {Big(v.x), Big(v.y), Big(v.z)}; }
+
+double length(const Vector3<Dd>& v) {
+  return std::sqrt(v.x.h * v.x.h + v.y.h * v.y.h + v.z.h * v.z.h);
+}
+
+// The circumcentre of the origin, a, b, c is `numerator` / (2 volume).
+template <class R>
+struct Circumcentre {
+  Vector3<R> bc, ca, ab, numerator;
+  R volume;
+
+  Circumcentre(const Vector3<R>& a, const Vector3<R>& b, const Vector3<R>& c)
+      : bc(cross(b, c)), ca(cross(c, a)), ab(cross(a, b)), volume(dot(a, bc)) {
+    const R a2 = dot(a, a), b2 = dot(b, b), c2 = dot(c, c);
+    numerator = {a2 * bc.x + b2 * ca.x + c2 * ab.x, a2 * bc.y + b2 * ca.y + c2 * ab.y,
+                 a2 * bc.z + b2 * ca.z + c2 * ab.z};
+  }
+  // Inside: |e|^2 < 2 e . centre.
+  R in_sphere(const Vector3<R>& e) const { return dot(numerator, e) - volume * dot(e, e); }
+  // Barycentric coordinate times 2 volume^2.
+  R side(int k) const {
+    if (k == 1) return dot(numerator, bc);
+    if (k == 2) return dot(numerator, ca);
+    if (k == 3) return dot(numerator, ab);
+    const R w2 = volume * volume;
+    return (w2 + w2) - (dot(numerator, bc) + dot(numerator, ca) + dot(numerator, ab));
+  }
+};
+
+// Sign by double-double if |value| exceeds the bound, zero if it is below what the lattice
+// resolves, otherwise by `exact`.
+template <class Exact>
+int decide(Dd value, double bound, double resolution, Exact&& exact) {
+  if (std::fabs(value.h) > bound) return value.h > 0.0 ? 1 : -1;
+  if (std::fabs(value.h) + bound < resolution) return 0;
+  return exact().sign();
+}
+
+}  // namespace
+
+int orient3_exact(Point3 a, Point3 b, Point3 c, Point3 d, const Lattice3& lattice) {
+  const Vector3<Dd> u = difference(b, a), v = difference(c, a), w = difference(d, a);
+  const double bound = 0x1p-99 * length(u) * length(v) * length(w);
+  return decide(dot(cross(u, v), w), bound, lattice.unit * lattice.unit * lattice.unit,
+                [&] { return dot(cross(big(u), big(v)), big(w)); });
+}
+
+int dot3_exact(Point3 a, Point3 b, Point3 c, const Lattice3& lattice) {
+  const Vector3<Dd> u = difference(a, c), v = difference(b, c);
+  return decide(dot(u, v), 0x1p-100 * length(u) * length(v), lattice.unit * lattice.unit,
+                [&] { return dot(big(u), big(v)); });
+}
+
+// Sums of magnitudes: |a||b||c| (s |e| + |e|^2) with s = |a| + |b| + |c|, times sqrt(3) as
+// components are bounded by lengths, times some 60 u^2 for the roundings.
+int in_sphere_exact(Point3 p, Point3 a, Point3 b, Point3 c, Point3 e, const Lattice3& lattice) {
+  const Vector3<Dd> u = difference(a, p), v = difference(b, p), w = difference(c, p);
+  const Vector3<Dd> q = difference(e, p);
+  const double lu = length(u), lv = length(v), lw = length(w), lq = length(q);
+  const double bound = 0x1p-98 * (lu * lv * lw) * ((lu + lv + lw) * lq + lq * lq);
+  const double unit = lattice.unit;
+  return decide(Circumcentre<Dd>(u, v, w).in_sphere(q), bound, unit * unit * unit * unit * unit,
+                [&] { return Circumcentre<Big>(big(u), big(v), big(w)).in_sphere(big(q)); });
+}
+
+int circumcentre_side_exact(const Point3* p, int k, const Lattice3& lattice) {
+  const Vector3<Dd> u = difference(p[1], p[0]), v = difference(p[2], p[0]);
+  const Vector3<Dd> w = difference(p[3], p[0]);
+  const double lu = length(u), lv = length(v), lw = length(w);
+  const double most = std::max(lu, std::max(lv, lw));
+  const double bound = 0x1p-94 * (lu * lv * lw) * (most * most * most);
+  const double cube = lattice.unit * lattice.unit * lattice.unit;
+  return decide(Circumcentre<Dd>(u, v, w).side(k), bound, cube * cube,
+                [&] { return Circumcentre<Big>(big(u), big(v), big(w)).side(k); });
+}
+
+bool in_sphere_perturbed(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e,
+                         const Lattice3& lattice) {
+  const Point3 vertex[4] = {a, b, c, d};
+  int order[4] = {0, 1, 2, 3};
+  std::sort(order, order + 4, [&](int i, int j) { return vertex[j] < vertex[i]; });
+  for (const int i : order) {
+    if (vertex[i] < e) return false;  // e is lifted first: it falls out of the sphere
+    Point3 p[4] = {a, b, c, d};
+    p[i] = e;
+    const int s = orient3(p[0], p[1], p[2], p[3], lattice);
+    if (s != 0) return s > 0;
+  }
+  return false;
+}
+
+double volume_accurate(Point3 a, Point3 b, Point3 c, Point3 d) {
+  const Vector3<Dd> u = difference(b, a), v = difference(c, a), w = difference(d, a);
+  const Dd det = dot(cross(u, v), w);
+  if (std::fabs(det.h) > 0x1p-46 * length(u) * length(v) * length(w)) return det.h + det.l;
+  return dot(cross(big(u), big(v)), big(w)).estimate();
+}
+
+namespace {
+
+double component(Dd plain, double scale, const Big& x, const Big& y, const Big& z, const Big& w) {
+  if (std::fabs(plain.h) > 0x1p-46 * scale) return plain.h + plain.l;
+  return (x * y - z * w).estimate();
+}
+
+}  // namespace
+
+Vector3<double> normal_accurate(Point3 a, Point3 b, Point3 c) {
+  const Vector3<Dd> u = difference(b, a), v = difference(c, a), n = cross(u, v);
+  const double scale = length(u) * length(v);
+  const Vector3<Big> s = big(u), t = big(v);
+  return {component(n.x, scale, s.y, t.z, s.z, t.y), component(n.y, scale, s.z, t.x, s.x, t.z),
+          component(n.z, scale, s.x, t.y, s.y, t.x)};
+}
+
+Vector3<double> circumcentre_accurate(Point3 p, Point3 a, Point3 b, Point3 c, double* w) {
+  const Vector3<Dd> u = difference(a, p), v = difference(b, p), t = difference(c, p);
+  const Circumcentre<Dd> plain(u, v, t);
+  const double lu = length(u), lv = length(v), lt = length(t), product = lu * lv * lt;
+  const Vector3<Dd>& n = plain.numerator;
+  if (std::fabs(plain.volume.h) > 0x1p-46 * product &&
+      length(n) > 0x1p-46 * product * (lu + lv + lt)) {
+    *w = plain.volume.h + plain.volume.l;
+    return {n.x.h + n.x.l, n.y.h + n.y.l, n.z.h + n.z.l};
+  }
+  const Circumcentre<Big> exact(big(u), big(v), big(t));
+  *w = exact.volume.estimate();
+  return {exact.numerator.x.estimate(), exact.numerator.y.estimate(), exact.numerator.z.estimate()};
+}
+
+}  // namespace alphamesh
