@@ -1,110 +1,19 @@
 // The seam to Python: arrays in, arrays out. All that knows of Python stands here.
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
+#include "bindings.hpp"
+
 #include <nanobind/stl/string.h>
 
-#include <chrono>
-#include <condition_variable>
 #include <cstdint>
-#include <mutex>
-#include <stdexcept>
-#include <system_error>
-#include <thread>
 
 #include "delaunay2.hpp"
 #include "output2.hpp"
-#include "parallel.hpp"
 #include "persistence2.hpp"
-#include "predicates2.hpp"
-#include "restricted2.hpp"
-#include "rings2.hpp"
 #include "selftest.hpp"
 #include "spatial_sort.hpp"
 
-namespace nb = nanobind;
 using namespace alphamesh;
 
 namespace {
-
-struct TooManyPoints : std::length_error {
-  using std::length_error::length_error;
-};
-
-using Points2 = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
-template <std::size_t K>
-using Tuples2 = nb::ndarray<const double, nb::shape<-1, K, 2>, nb::c_contig, nb::device::cpu>;
-
-// Hands a buffer over to NumPy without a copy.
-template <class T>
-nb::object array(Buffer<T>&& buffer, std::size_t columns = 1) {
-  auto* owner = new Buffer<T>(std::move(buffer));
-  nb::capsule capsule(owner, [](void* p) noexcept { delete static_cast<Buffer<T>*>(p); });
-  const std::size_t shape[2] = {owner->size() / columns, columns};
-  return nb::cast(nb::ndarray<nb::numpy, T>(owner->data(), columns == 1 ? 1 : 2, shape, capsule));
-}
-
-// Below this the work is over before anybody could interrupt it.
-constexpr std::size_t kWatched = 50000;
-
-// Runs work() without the GIL; on large clouds in a thread of its own, while this one
-// looks after signals (Ctrl-C) and the progress callback.
-template <class Work>
-void run_watched(Job& job, std::size_t size, const nb::object& progress, Work&& work) {
-  if (size < kWatched) {
-    const nb::gil_scoped_release released;
-    work();
-    return;
-  }
-  std::mutex lock;
-  std::condition_variable finished;
-  bool done = false;
-  std::exception_ptr error;
-  std::thread worker([&] {
-    try {
-      work();
-    } catch (...) {
-      error = std::current_exception();
-    }
-    const std::lock_guard<std::mutex> guard(lock);
-    done = true;
-    finished.notify_one();
-  });
-  bool stop = false;
-  for (;;) {
-    {
-      const nb::gil_scoped_release released;
-      std::unique_lock<std::mutex> guard(lock);
-      if (stop)
-        finished.wait(guard, [&] { return done; });
-      else
-        finished.wait_for(guard, std::chrono::milliseconds(50), [&] { return done; });
-      if (done) break;
-    }
-    bool failed = PyErr_CheckSignals() != 0;
-    if (!failed && !progress.is_none()) {
-      PyObject* result = PyObject_CallFunction(progress.ptr(), "d", job.progress());
-      Py_XDECREF(result);
-      failed = result == nullptr;
-    }
-    if (failed) {
-      stop = true;  // the Python error stays set; nothing below calls Python before it is raised
-      job.cancel();
-      const nb::gil_scoped_release released;
-      worker.join();
-      break;
-    }
-  }
-  if (worker.joinable()) {
-    const nb::gil_scoped_release released;
-    worker.join();
-  }
-  if (stop) throw nb::python_error();
-  if (error) std::rethrow_exception(error);
-  if (!progress.is_none()) progress(1.0);
-}
-
-// Small clouds are done before a second thread has started.
-int useful_threads(int threads, std::size_t n) { return n < 10000 ? 1 : threads; }
 
 void check_size(std::size_t n) {
   if (n > kMaxPoints2) throw TooManyPoints("at most 2^27 points");
@@ -128,16 +37,6 @@ nb::tuple alpha2(const Points2& points, int threads, const nb::object& progress)
   return nb::make_tuple(representative_of(order), array(std::move(f.triangles), 3),
                         array(std::move(f.triangle_radii)), array(std::move(f.edges), 2),
                         array(std::move(f.edge_radii)), array(std::move(f.edge_triangles), 2));
-}
-
-using Ids = nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
-using Values = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-using Flags = nb::ndarray<const bool, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
-ComplexView2 view_of(const Points2& points, const Ids& triangles, const Ids& edges,
-                     const Ids& edge_triangles) {
-  return {points.data(), points.shape(0), triangles.data(),     triangles.shape(0),
-          edges.data(),  edges.shape(0),  edge_triangles.data()};
 }
 
 nb::object triangle_edges2_py(const Points2& points, const Ids& triangles, const Ids& edges,
@@ -169,40 +68,6 @@ nb::tuple persistence2_py(const Points2& points, const Ids& triangles, const Val
   run_watched(job, view.n, progress,
               [&] { pairs = persistence2(view, triangle_radii.data(), edge_radii.data(), job); });
   return nb::make_tuple(array(std::move(pairs.components), 2), array(std::move(pairs.loops), 2));
-}
-
-nb::object points_array(Buffer<Point2>&& buffer) {
-  auto* owner = new Buffer<Point2>(std::move(buffer));
-  nb::capsule capsule(owner, [](void* p) noexcept { delete static_cast<Buffer<Point2>*>(p); });
-  static_assert(sizeof(Point2) == 2 * sizeof(double));
-  const std::size_t shape[2] = {owner->size(), 2};
-  return nb::cast(
-      nb::ndarray<nb::numpy, double>(reinterpret_cast<double*>(owner->data()), 2, shape, capsule));
-}
-
-nb::object circumcentres2_py(const Points2& points, const Ids& triangles, int threads) {
-  const ComplexView2 view{
-      points.data(), points.shape(0), triangles.data(), triangles.shape(0), nullptr, 0, nullptr};
-  Job job(useful_threads(threads, view.n));
-  Buffer<Point2> out;
-  run_watched(job, view.n, nb::none(), [&] { out = circumcentres2(view, job); });
-  return points_array(std::move(out));
-}
-
-nb::tuple restricted2_py(const Points2& points, const Ids& triangles, const Values& triangle_radii,
-                         const Ids& edges, const Values& edge_radii, const Ids& edge_triangles,
-                         const Flags& active, double radius, int threads,
-                         const nb::object& progress) {
-  const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
-  Job job(useful_threads(threads, view.n));
-  RestrictedCells2 c;
-  run_watched(job, view.n, progress, [&] {
-    c = restricted2(view, triangle_radii.data(), edge_radii.data(), active.data(), radius, job);
-  });
-  return nb::make_tuple(array(std::move(c.offset)), points_array(std::move(c.start)),
-                        points_array(std::move(c.end)), array(std::move(c.neighbor)),
-                        array(std::move(c.angles), 2), array(std::move(c.area)),
-                        array(std::move(c.segment_length)), array(std::move(c.arc_length)));
 }
 
 nb::tuple delaunay2_py(const Points2& points, int threads, const nb::object& progress) {
@@ -276,17 +141,14 @@ NB_MODULE(_core, m) {
         nb::arg("edges"), nb::arg("edge_triangles"), nb::arg("threads"));
   m.def("rings2", &rings2_py, nb::arg("points"), nb::arg("triangles"), nb::arg("edges"),
         nb::arg("edge_triangles"), nb::arg("threads"));
-  m.def("circumcentres2", &circumcentres2_py, nb::arg("points"), nb::arg("triangles"),
-        nb::arg("threads"));
-  m.def("restricted2", &restricted2_py, nb::arg("points"), nb::arg("triangles"),
-        nb::arg("triangle_radii"), nb::arg("edges"), nb::arg("edge_radii"),
-        nb::arg("edge_triangles"), nb::arg("active"), nb::arg("radius"), nb::arg("threads"),
-        nb::arg("progress").none());
   m.def("persistence2", &persistence2_py, nb::arg("points"), nb::arg("triangles"),
         nb::arg("triangle_radii"), nb::arg("edges"), nb::arg("edge_radii"),
         nb::arg("edge_triangles"), nb::arg("threads"), nb::arg("progress").none());
   m.def("orient2", &orient2, nb::arg("points"));
   m.def("dot2", &dot2, nb::arg("points"));
   m.def("incircle2", &incircle2, nb::arg("points"), nb::arg("perturb"));
+  bind_outlines2(m);
+  bind_space3(m);
+  bind_voronoi2(m);
   m.def("self_test", &self_test);
 }

@@ -72,7 +72,7 @@ inline int orient3(Point3 a, Point3 b, Point3 c, Point3 d, const Lattice3& latti
   const double bound = (7.0 + 56.0 * kEps) * kEps * sum;  // Shewchuk's o3derrboundA
   if (det > bound) return 1;
   if (det < -bound) return -1;
-  if (sum < lattice.exact3) return sign_of(det);
+  if (sum < lattice.exact3 || sum == 0.0) return sign_of(det);
   return orient3_exact(a, b, c, d, lattice);
 }
 

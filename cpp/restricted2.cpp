@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "voronoi2.hpp"
+
 namespace alphamesh {
 namespace {
 
@@ -23,11 +25,11 @@ struct Segment {
 
 class CellMaker {
  public:
-  CellMaker(const ComplexView2& view, const double* triangle_radii, const double* edge_radii,
-            double radius, const Rings2& rings, const Buffer<Point2>& centres)
+  CellMaker(const ComplexView2& view, const bool* triangles, const bool* edges, double radius,
+            const Rings2& rings, const Buffer<Point2>& centres)
       : view_(view),
-        triangle_radii_(triangle_radii),
-        edge_radii_(edge_radii),
+        triangles_(triangles),
+        edges_(edges),
         r_(radius),
         rings_(rings),
         centres_(centres) {}
@@ -36,8 +38,8 @@ class CellMaker {
   void write(Id v, RestrictedCells2& out, std::size_t at);
 
  private:
-  bool has_edge(Id e) const { return edge_radii_[e] <= r_; }
-  bool has_triangle(Id t) const { return t >= 0 && triangle_radii_[t] <= r_; }
+  bool has_edge(Id e) const { return edges_[e]; }
+  bool has_triangle(Id t) const { return t >= 0 && triangles_[t]; }
   void collect(Id v);
   Segment segment(Id v, Id edge, Id before, Id after) const;
   Point2 crossing(Id edge, double along) const;
@@ -45,8 +47,8 @@ class CellMaker {
   double turn(Id v, Id from, Id to) const;
 
   const ComplexView2& view_;
-  const double* triangle_radii_;
-  const double* edge_radii_;
+  const bool* triangles_;  // which the complex has
+  const bool* edges_;
   double r_;
   const Rings2& rings_;
   const Buffer<Point2>& centres_;
@@ -92,7 +94,7 @@ Segment CellMaker::segment(Id v, Id edge, Id before, Id after) const {
   s.after = has_triangle(after) ? after : -1;
   const Point2 a = view_.point(v), b = view_.point(s.row);
   s.half = 0.5 * std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-  const double reach = std::sqrt(std::max(0.0, (r_ - s.half) * (r_ + s.half)));
+  const double reach = std::sqrt(std::max(0.0, r_ - s.half)) * std::sqrt(r_ + s.half);
   // Left of the way from v, as seen from the lower row.
   const double sign = v == view_.edges[2 * edge] ? 1.0 : -1.0;
   s.to = s.after >= 0 ? centre_along(v, s, s.after) : reach;
@@ -166,12 +168,11 @@ void CellMaker::write(Id v, RestrictedCells2& out, std::size_t at) {
 
 }  // namespace
 
-RestrictedCells2 restricted2(const ComplexView2& view, const double* triangle_radii,
-                             const double* edge_radii, const bool* active, double radius,
-                             Job& job) {
+RestrictedCells2 restricted2(const ComplexView2& view, const bool* has_triangle,
+                             const bool* has_edge, const bool* active, double radius, Job& job) {
   const Buffer<Id> triangle_edges = triangle_edges2(view, job);
   const Rings2 rings = rings2(view, triangle_edges, job);
-  const Buffer<Point2> centres = circumcentres2(view, job);
+  const Buffer<Point2> centres = voronoi_vertices2(view, job).position;
   RestrictedCells2 out;
   out.offset = Buffer<std::int64_t>(view.n + 1);
   out.area = Buffer<double>(view.n);
@@ -180,7 +181,7 @@ RestrictedCells2 restricted2(const ComplexView2& view, const double* triangle_ra
   out.offset[0] = 0;
   const Parts parts(view.n, job, 2048);
   job.run(parts.count(), [&](std::size_t part) {
-    const CellMaker maker(view, triangle_radii, edge_radii, radius, rings, centres);
+    const CellMaker maker(view, has_triangle, has_edge, radius, rings, centres);
     for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
       out.offset[v + 1] =
           active[v] ? static_cast<std::int64_t>(maker.count_pieces(static_cast<Id>(v))) : 0;
@@ -193,7 +194,7 @@ RestrictedCells2 restricted2(const ComplexView2& view, const double* triangle_ra
   out.neighbor = Buffer<Id>(pieces);
   out.angles = Buffer<double>(2 * pieces);
   job.run(parts.count(), [&](std::size_t part) {
-    CellMaker maker(view, triangle_radii, edge_radii, radius, rings, centres);
+    CellMaker maker(view, has_triangle, has_edge, radius, rings, centres);
     for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
       if (active[v]) {
         maker.write(static_cast<Id>(v), out, static_cast<std::size_t>(out.offset[v]));

@@ -23,11 +23,11 @@ struct RestrictedCells2 {
   Buffer<double> arc_length;      // (n)
 };
 
-// Which segments, ends and arcs there are is read from the filtration, which is exact
-// (nerve theorem; Edelsbrunner 1995): two cells share a segment if and only if their edge
-// has a value of at most r, three share a corner if and only if their triangle has. Only
-// positions and measures are rounded. `active` tells which rows stand for themselves.
-RestrictedCells2 restricted2(const ComplexView2& view, const double* triangle_radii,
-                             const double* edge_radii, const bool* active, double radius, Job& job);
+// Which segments, ends and arcs there are follows from the alpha complex, which is exact
+// (nerve theorem; Edelsbrunner 1995): two cells share a segment if and only if it has their
+// edge, three share a corner if and only if it has their triangle. Only positions and
+// measures are rounded. `active` tells which rows stand for themselves.
+RestrictedCells2 restricted2(const ComplexView2& view, const bool* has_triangle,
+                             const bool* has_edge, const bool* active, double radius, Job& job);
 
 }  // namespace alphamesh

@@ -93,7 +93,8 @@ int common_unit(const double* v, std::size_t n, int enough) {
   for (std::size_t i = 0; i < n && unit > enough; ++i) {
     // Testing against the unit found so far is cheap, and true for nearly all.
     const double q = v[i] * inverse;
-    if (std::fabs(q) < limit && (q + kRound) - kRound == q) continue;
+    const bool whole = (q + kRound) - kRound == q && (q != 0.0 || v[i] == 0.0);  // no underflow
+    if (std::fabs(q) < limit && whole) continue;
     const int found = unit_exponent(v[i]);
     if (found >= unit) continue;
     unit = found;
