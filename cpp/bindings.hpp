@@ -46,6 +46,7 @@ constexpr std::size_t kWatched = 50000;
 // looks after signals (Ctrl-C) and the progress callback.
 template <class Work>
 void run_watched(Job& job, std::size_t size, const nb::object& progress, Work&& work) {
+  const Recycling recycling;
   if (size < kWatched) {
     const nb::gil_scoped_release released;
     work();

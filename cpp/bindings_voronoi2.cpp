@@ -53,7 +53,7 @@ nb::tuple restricted2_py(const Points2& points, const Ids& triangles, const Flag
   });
   return nb::make_tuple(array(std::move(c.offset)), points_array(std::move(c.start)),
                         points_array(std::move(c.end)), array(std::move(c.neighbor)),
-                        array(std::move(c.angles), 2), array(std::move(c.area)),
+                        array(std::move(c.angles), 2), array(std::move(c.straight_area)),
                         array(std::move(c.segment_length)), array(std::move(c.arc_length)));
 }
 

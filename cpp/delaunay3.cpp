@@ -588,8 +588,6 @@ void Insertion::run_parallel(const Id* begin, const Id* end, std::vector<Id>& la
 
 void Insertion::run_round(const Id* begin, const Id* end) {
   constexpr std::ptrdiff_t kWorthwhile = 4000;  // points a thread
-  store_.reserve(store_.used.load() + 7 * static_cast<std::size_t>(end - begin) +
-                 8192 * workers_.size());
   if (job_.threads() > 1 && end - begin > kWorthwhile * job_.threads()) {
     std::vector<Id> later;
     run_parallel(begin, end, later);
@@ -616,7 +614,8 @@ Mesh3 delaunay3(const SpatialOrder3& order, Job& job) {
   const double u = order.lattice.unit;
   store.exact = 16.0 * (u * u * u * u * u);
   const Rounds rounds = plan_rounds(order.size);
-  store.reserve(16384);
+  // Ample for nearly all clouds; what is never touched costs nothing.
+  store.reserve(8 * order.size + 8192 * (static_cast<std::size_t>(job.threads()) + 1));
   Insertion insertion(store, job, span);
   insertion.first().take_range(0, mesh.infinity);
   make_first(store, insertion.first(), span);

@@ -2,33 +2,26 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 namespace alphamesh {
 
-// Touching fresh 4 kB pages costs a fifth of a run on large clouds, so that large
-// arrays ask for huge pages where the system has them.
-constexpr std::size_t kHugePage = std::size_t{1} << 21;
+// Memory of at least one byte; release() takes the same number of bytes.
+void* allocate(std::size_t bytes);
+void release(void* p, std::size_t bytes) noexcept;
 
-inline std::size_t alignment_for(std::size_t bytes) {
-  return bytes >= 2 * kHugePage ? kHugePage : 64;
-}
-
-inline void* allocate(std::size_t bytes) {
-  const std::size_t align = alignment_for(bytes);
-  void* p = ::operator new(bytes, std::align_val_t(align));
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-  if (align == kHugePage) (void)madvise(p, bytes, MADV_HUGEPAGE);  // advice: failure is harmless
-#endif
-  return p;
-}
+// Touching fresh pages costs a fifth to a third of a run on large clouds. While an object
+// of this class lives, large blocks that are released are kept and given out again, in
+// parts if need be; with the last one they go back to the system.
+class Recycling {
+ public:
+  Recycling() noexcept;
+  ~Recycling();
+  Recycling(const Recycling&) = delete;
+  Recycling& operator=(const Recycling&) = delete;
+};
 
 template <class T>
 class Buffer {
@@ -48,7 +41,9 @@ class Buffer {
   }
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
-  ~Buffer() { release(data_, size_); }
+  ~Buffer() {
+    if (data_ != nullptr) release(data_, size_ * sizeof(T));
+  }
 
   T* data() { return data_; }
   const T* data() const { return data_; }
@@ -57,10 +52,6 @@ class Buffer {
   const T& operator[](std::size_t i) const { return data_[i]; }
   T* begin() { return data_; }
   T* end() { return data_ + size_; }
-
-  static void release(T* data, std::size_t n) {
-    if (data != nullptr) ::operator delete(data, std::align_val_t(alignment_for(n * sizeof(T))));
-  }
 
  private:
   T* data_ = nullptr;

@@ -59,14 +59,29 @@ Buckets bucket(const Mesh3& mesh, std::size_t n, Job& job) {
   return out;
 }
 
-struct Sorted {
-  Id vertex[4];
-  explicit Sorted(const Tetrahedron& t) {
-    std::copy(t.vertex, t.vertex + 4, vertex);
-    std::sort(vertex, vertex + 4);
+// A tetrahedron among those with the same first vertex: its other vertices, ascending.
+struct Rest {
+  std::uint64_t second_third;
+  Id fourth, slot;
+
+  Rest(const Tetrahedron& t, Id s) : slot(s) {
+    Id v[4] = {t.vertex[0], t.vertex[1], t.vertex[2], t.vertex[3]};
+    auto settle = [&](int i, int j) {
+      const Id low = std::min(v[i], v[j]), high = std::max(v[i], v[j]);
+      v[i] = low;
+      v[j] = high;
+    };
+    settle(0, 1);
+    settle(2, 3);
+    settle(0, 2);
+    settle(1, 3);
+    settle(1, 2);
+    second_third =
+        (std::uint64_t{static_cast<std::uint32_t>(v[1])} << 32) | static_cast<std::uint32_t>(v[2]);
+    fourth = v[3];
   }
-  bool operator<(const Sorted& o) const {
-    return std::lexicographical_compare(vertex, vertex + 4, o.vertex, o.vertex + 4);
+  bool operator<(const Rest& o) const {
+    return second_third != o.second_third ? second_third < o.second_third : fourth < o.fourth;
   }
 };
 
@@ -108,9 +123,15 @@ class Writer {
   void edges();
 
  private:
+  // Edges of a part, in blocks, as their number is not known beforehand.
+  struct Edge {
+    Id ends[2];
+    double value;
+  };
+  static constexpr std::size_t kBlock = 1 << 14;
   struct Found {
-    std::vector<Id> ends;
-    std::vector<double> value;
+    std::vector<Buffer<Edge>> block;
+    std::size_t count = 0;
   };
 
   // A triangle belongs to the lower of its two tetrahedra, an edge to the lowest of all.
@@ -272,9 +293,8 @@ void Writer::part_edges(std::size_t lo, std::size_t hi, Found& found) {
         if ((done_[t] & kEdgeBit[i][j]) != 0 || !ring_value(t, i, j, lo, hi, &value)) continue;
         const Id a = order_.row[static_cast<std::size_t>(mesh_[t].vertex[i])];
         const Id b = order_.row[static_cast<std::size_t>(mesh_[t].vertex[j])];
-        found.ends.push_back(std::min(a, b));
-        found.ends.push_back(std::max(a, b));
-        found.value.push_back(value);
+        if (found.count % kBlock == 0) found.block.emplace_back(kBlock);
+        found.block.back()[found.count++ % kBlock] = {{std::min(a, b), std::max(a, b)}, value};
       }
     }
   }
@@ -289,20 +309,22 @@ void Writer::edges() {
     job_.advance(0.2 / static_cast<double>(parts_.count()));
   });
   std::vector<std::size_t> first(parts_.count() + 1, 0);
-  for (std::size_t i = 0; i < found.size(); ++i) first[i + 1] = first[i] + found[i].value.size();
+  for (std::size_t i = 0; i < found.size(); ++i) first[i + 1] = first[i] + found[i].count;
   out_.edges = Buffer<Id>(2 * first.back());
   out_.edge_radii = Buffer<double>(first.back());
   job_.run(parts_.count(), [&](std::size_t part) {
-    std::copy(found[part].ends.begin(), found[part].ends.end(),
-              out_.edges.begin() + 2 * first[part]);
-    std::copy(found[part].value.begin(), found[part].value.end(),
-              out_.edge_radii.begin() + first[part]);
+    for (std::size_t i = 0; i < found[part].count; ++i) {
+      const Edge& e = found[part].block[i / kBlock][i % kBlock];
+      std::copy(e.ends, e.ends + 2, &out_.edges[2 * (first[part] + i)]);
+      out_.edge_radii[first[part] + i] = e.value;
+    }
   });
 }
 
 }  // namespace
 
-Buffer<Tetrahedron> compact3(const SpatialOrder3& order, Mesh3&& mesh, Job& job) {
+Buffer<Tetrahedron> compact3(const SpatialOrder3& order, Mesh3&& triangulated, Job& job) {
+  const Mesh3 mesh = std::move(triangulated);  // gone when this is over
   const std::size_t n = order.size;
   const Point3* p = order.points.data();
   if (mesh.slots == 0) return {};
@@ -314,15 +336,18 @@ Buffer<Tetrahedron> compact3(const SpatialOrder3& order, Mesh3&& mesh, Job& job)
     std::fill(id.begin() + slots.begin(part), id.begin() + slots.end(part), -1);
   });
   job.run(parts.count(), [&](std::size_t part) {
+    std::vector<Rest> bucket;
     for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
-      Id *begin = buckets.slot.begin() + buckets.start[v],
-         *end = buckets.slot.begin() + buckets.start[v + 1];
-      std::sort(begin, end, [&](Id a, Id b) {
-        return Sorted(mesh.slot[static_cast<std::size_t>(a)]) <
-               Sorted(mesh.slot[static_cast<std::size_t>(b)]);
-      });
-      for (Id* s = begin; s < end; ++s) {
-        id[static_cast<std::size_t>(*s)] = static_cast<Id>(s - buckets.slot.begin());
+      bucket.clear();
+      for (Id i = buckets.start[v]; i < buckets.start[v + 1]; ++i) {
+        const Id s = buckets.slot[static_cast<std::size_t>(i)];
+        bucket.emplace_back(mesh.slot[static_cast<std::size_t>(s)], s);
+      }
+      std::sort(bucket.begin(), bucket.end());
+      Id i = buckets.start[v];
+      for (const Rest& r : bucket) {
+        id[static_cast<std::size_t>(r.slot)] = i;
+        buckets.slot[static_cast<std::size_t>(i++)] = r.slot;
       }
     }
   });

@@ -38,6 +38,7 @@ class CellMaker {
   void write(Id v, RestrictedCells2& out, std::size_t at);
 
  private:
+  double half_chord(double distance) const;
   bool has_edge(Id e) const { return edges_[e]; }
   bool has_triangle(Id t) const { return t >= 0 && triangles_[t]; }
   void collect(Id v);
@@ -86,6 +87,12 @@ double CellMaker::centre_along(Id v, const Segment& s, Id triangle) const {
   return s.half * (dot / cross_accurate(a, b, c));
 }
 
+// Half the chord of the circle at this distance from its centre; 0 from the radius on.
+double CellMaker::half_chord(double distance) const {
+  const double less = std::max(0.0, r_ - distance), more = r_ + distance, square = less * more;
+  return square < HUGE_VAL ? std::sqrt(square) : std::sqrt(less) * std::sqrt(more);
+}
+
 Segment CellMaker::segment(Id v, Id edge, Id before, Id after) const {
   Segment s{};
   s.edge = edge;
@@ -94,7 +101,7 @@ Segment CellMaker::segment(Id v, Id edge, Id before, Id after) const {
   s.after = has_triangle(after) ? after : -1;
   const Point2 a = view_.point(v), b = view_.point(s.row);
   s.half = 0.5 * std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-  const double reach = std::sqrt(std::max(0.0, r_ - s.half)) * std::sqrt(r_ + s.half);
+  const double reach = half_chord(s.half);
   // Left of the way from v, as seen from the lower row.
   const double sign = v == view_.edges[2 * edge] ? 1.0 : -1.0;
   s.to = s.after >= 0 ? centre_along(v, s, s.after) : reach;
@@ -142,7 +149,7 @@ void CellMaker::write(Id v, RestrictedCells2& out, std::size_t at) {
   if (segments_.empty()) {
     const Point2 p{c.x + r_, c.y};
     put(p, p, -1, 0.0, 2.0 * kPi);
-    out.area[v] = kPi * r_ * r_;
+    out.straight_area[v] = 0.0;
     out.segment_length[v] = 0.0;
     out.arc_length[v] = 2.0 * kPi * r_;
     return;
@@ -161,7 +168,7 @@ void CellMaker::write(Id v, RestrictedCells2& out, std::size_t at) {
     put(s.end, next.start, -1, from, from + angle);
     angles += angle;
   }
-  out.area[v] = triangles + 0.5 * angles * r_ * r_;
+  out.straight_area[v] = triangles;
   out.segment_length[v] = length;
   out.arc_length[v] = angles * r_;
 }
@@ -175,7 +182,7 @@ RestrictedCells2 restricted2(const ComplexView2& view, const bool* has_triangle,
   const Buffer<Point2> centres = voronoi_vertices2(view, job).position;
   RestrictedCells2 out;
   out.offset = Buffer<std::int64_t>(view.n + 1);
-  out.area = Buffer<double>(view.n);
+  out.straight_area = Buffer<double>(view.n);
   out.segment_length = Buffer<double>(view.n);
   out.arc_length = Buffer<double>(view.n);
   out.offset[0] = 0;
@@ -199,7 +206,7 @@ RestrictedCells2 restricted2(const ComplexView2& view, const bool* has_triangle,
       if (active[v]) {
         maker.write(static_cast<Id>(v), out, static_cast<std::size_t>(out.offset[v]));
       } else {
-        out.area[v] = out.segment_length[v] = out.arc_length[v] = 0.0;
+        out.straight_area[v] = out.segment_length[v] = out.arc_length[v] = 0.0;
       }
     }
     job.advance(1.0 / static_cast<double>(parts.count()));

@@ -18,7 +18,7 @@ struct RestrictedCells2 {
   Buffer<Point2> start, end;      // (k)
   Buffer<std::int32_t> neighbor;  // (k): the row across a segment, -1 for an arc
   Buffer<double> angles;          // (k, 2): start and end of an arc, end > start; NaN for a segment
-  Buffer<double> area;            // (n)
+  Buffer<double> straight_area;   // (n): without the sectors, half arc_length times radius
   Buffer<double> segment_length;  // (n)
   Buffer<double> arc_length;      // (n)
 };
