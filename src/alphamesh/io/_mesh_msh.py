@@ -86,8 +86,8 @@ def _write_nodes(file: BinaryIO, mesh: Mesh, kinds: list[str]) -> None:
     if count:
         file.write(_ints(_top(kinds), _TAG, 0))
         file.write(_sizes(count))
-        file.write(np.arange(1, count + 1, dtype=np.uint64))
-        file.write(np.ascontiguousarray(points_in_space(mesh)))
+        file.write(np.arange(1, count + 1, dtype=np.uint64).data)
+        file.write(np.ascontiguousarray(points_in_space(mesh)).data)
     file.write(b"\n$EndNodes\n")
 
 
@@ -103,7 +103,7 @@ def _write_elements(file: BinaryIO, cells: Mapping[str, NDArray[Any]]) -> None:
         table[:, 0] = np.arange(first, first + len(rows))
         table[:, 1:] = rows
         table[:, 1:] += np.uint64(1)
-        file.write(table)
+        file.write(table.data)
         first += len(rows)
     file.write(b"\n$EndElements\n")
 

@@ -229,6 +229,6 @@ def read_npz(path: Path) -> Mesh:
     return Mesh(arrays["points"], cells, point_data, cell_data)
 
 
-def _bytes(table: NDArray[Any]) -> NDArray[np.uint8]:
+def _bytes(table: NDArray[Any]) -> memoryview:
     """Return the bytes of an array without a copy."""
-    return table.reshape(-1).view(np.uint8)
+    return table.reshape(-1).view(np.uint8).data
