@@ -1,4 +1,4 @@
-"""The command line: ``alphamesh mesh``, ``sample``, ``info`` and ``demo``."""
+"""The command line: ``alphamesh mesh``, ``plot``, ``animate`` and others."""
 
 from __future__ import annotations
 

@@ -16,6 +16,12 @@ _COMMANDS = {
     "sample": "draw points from a mask image",
     "info": "tell what is in a file of points, an image or a mesh",
     "demo": "write a gallery of demo shapes",
+    "plot": "draw a picture of a cloud, its cells or its complex",
+    "animate": "make a film of the growing radius",
+    "radius": "choose a radius, and say why",
+    "persistence": "tell when components and holes come and go",
+    "voronoi": "find Voronoi cells, whole or cut by discs",
+    "delaunay": "triangulate, with a frame around the cloud or without",
 }
 
 _EXAMPLES = (

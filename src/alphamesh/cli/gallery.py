@@ -24,6 +24,7 @@ class Exhibit:
     choice: RadiusChoice
     counts: Mapping[str, int]
     euler_characteristic: int
+    with_film: bool
 
     @property
     def mask(self) -> str:
@@ -42,8 +43,29 @@ class Exhibit:
 
     @property
     def picture(self) -> str:
-        """File of the picture."""
+        """File of the first picture: cloud, triangulation and complex."""
         return f"{self.shape.name}-overview.png"
+
+    @property
+    def outlines(self) -> str:
+        """File of the picture of hull, triangulation and frame."""
+        return f"{self.shape.name}-outlines.png"
+
+    @property
+    def radii(self) -> str:
+        """File of the picture of cells and complex at three radii."""
+        return f"{self.shape.name}-radii.png"
+
+    @property
+    def film(self) -> str:
+        """File of the film."""
+        return f"{self.shape.name}-film.gif"
+
+    @property
+    def files(self) -> list[str]:
+        """All files of the shape."""
+        pictures = [self.picture, self.outlines, self.radii]
+        return [self.mask, self.cloud, self.mesh, *pictures, *([self.film] * self.with_film)]
 
     def facts(self) -> dict[str, Any]:
         """Return the summary for scripts."""
@@ -56,7 +78,7 @@ class Exhibit:
             "rule": self.choice.rule,
             **self.counts,
             "euler_characteristic": self.euler_characteristic,
-            "files": [self.mask, self.cloud, self.mesh, self.picture],
+            "files": self.files,
         }
 
 
@@ -70,13 +92,17 @@ _STYLE = """
   .row { display: flex; gap: 1rem; align-items: center; flex-wrap: wrap; }
   .mask { width: 9rem; image-rendering: pixelated; border: 1px solid #8884; }
   .overview { flex: 1 1 40rem; min-width: 0; max-width: 100%; background: white; }
+  .wide { display: block; width: 100%; max-width: 64rem; margin: 1rem 0; background: white; }
+  summary { cursor: pointer; }
   .files a { margin-right: 1rem; }
 """
 
 _INTRODUCTION = """From each mask on the left, points were drawn at random. Their Delaunay
 triangulation fills every hole; the alpha complex keeps only the triangles and edges that
 balls of one radius around the points hold together. Why that radius was chosen stands with
-each shape; where points happen to lie far apart, small gaps may stay."""
+each shape. Below: the hull and what a frame of points leaves of the triangulation; the
+Voronoi cells within discs of three radii, with the complex that joins the cells that touch;
+and a film of the growing radius."""
 
 
 def gallery_page(exhibits: Sequence[Exhibit]) -> str:
@@ -107,8 +133,17 @@ def _section(exhibit: Exhibit) -> str:
         f"{counted(counts['triangles'], 'triangle')} and "
         f"{counted(counts['singular_edges'], 'singular edge')}. {escape(exhibit.choice.reason)}"
     )
-    files = (exhibit.mask, exhibit.cloud, exhibit.mesh, exhibit.picture)
-    links = "".join(f'<a href="{file}">{file}</a>' for file in files)
+    links = "".join(f'<a href="{file}">{file}</a>' for file in exhibit.files)
+    further = [
+        ("Hull, triangulation and frame", exhibit.outlines),
+        ("Cells and complex at three radii", exhibit.radii),
+        *([("Film of the growing radius", exhibit.film)] * exhibit.with_film),
+    ]
+    shown = "\n".join(
+        f'<details open><summary>{title}</summary>\n<img class="wide" loading="lazy" '
+        f'src="{file}" alt="{title} of {name}"></details>'
+        for title, file in further
+    )
     return f"""<section id="{name}">
 <h2>{name}</h2>
 <p>{text}</p>
@@ -117,5 +152,6 @@ def _section(exhibit: Exhibit) -> str:
 <img class="overview" src="{exhibit.picture}"
  alt="cloud, Delaunay triangulation and alpha complex of {name}">
 </div>
+{shown}
 <p class="files">{links}</p>
 </section>"""

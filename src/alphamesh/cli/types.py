@@ -15,11 +15,15 @@ else:
 __all__ = [
     "AUTO",
     "STREAM",
+    "BettiType",
     "ColumnsType",
     "FigureFile",
+    "FilmFile",
     "MeshFile",
     "PointsFile",
+    "RadiiType",
     "RadiusType",
+    "TableFile",
 ]
 
 AUTO = "auto"
@@ -53,6 +57,50 @@ class RadiusType(ParamType):
         if not radius >= 0:
             self.fail(f"{value!r} is not a number of at least 0", param, ctx)
         return radius
+
+
+class RadiiType(ParamType):
+    """The radii of a film: the name of a rule, or numbers with commas between them."""
+
+    name = "radii"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> str | list[float]:
+        """Return the name of a rule, or the numbers."""
+        from alphamesh.film.radii import RADII_RULES
+
+        if isinstance(value, list) or value in RADII_RULES:
+            return value if isinstance(value, list) else str(value)
+        try:
+            radii = [float(part) for part in str(value).split(",")]
+        except ValueError:
+            self.fail(
+                f"{value!r} is neither a list of numbers nor one of the rules: "
+                + ", ".join(RADII_RULES),
+                param,
+                ctx,
+            )
+        if not all(0 <= radius < float("inf") for radius in radii):
+            self.fail(f"{value!r} holds a number that is no finite radius", param, ctx)
+        return radii
+
+
+class BettiType(ParamType):
+    """Components and holes, ``b0,b1``."""
+
+    name = "betti"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[int, int]:
+        """Return the two numbers."""
+        if isinstance(value, tuple):
+            return value
+        parts = [part.strip() for part in str(value).split(",")]
+        if len(parts) != 2 or not all(part.isdigit() for part in parts):
+            self.fail(f"{value!r} is not components and holes, such as 1,2", param, ctx)
+        return int(parts[0]), int(parts[1])
 
 
 class ColumnsType(ParamType):
@@ -119,6 +167,28 @@ class FigureFile(_File):
     def formats(self) -> tuple[str, ...]:
         """Return the extensions of pictures."""
         return (".png", ".pdf", ".svg")
+
+
+class FilmFile(_File):
+    """A film to write."""
+
+    what = "film"
+
+    def formats(self) -> tuple[str, ...]:
+        """Return the extensions of films."""
+        from alphamesh.film.film import FILM_FORMATS
+
+        return FILM_FORMATS
+
+
+class TableFile(_File):
+    """A table of results to write."""
+
+    what = "table"
+
+    def formats(self) -> tuple[str, ...]:
+        """Return the extensions of tables."""
+        return (".csv", ".tsv", ".npz")
 
 
 class PointsFile(_File):

@@ -1,7 +1,8 @@
 """Figures: on given axes, without pyplot, so that they run headless and leak nothing.
 
 Every ``plot_*`` function takes ``ax`` (a new figure if None) and returns a
-:class:`Drawing` that names the artists it added.
+:class:`Drawing` that names the artists it added. Composed views (``plot_overview``,
+``plot_story``, ``plot_outlines``, ``plot_radii``) return a new figure.
 """
 
 from __future__ import annotations
@@ -13,20 +14,45 @@ except ImportError as missing:
 
     raise MissingLibraryError.of("matplotlib", "plot", "Drawing a figure") from missing
 
+from alphamesh.plot.cells import (
+    cell_coloring,
+    plot_restricted_voronoi,
+    plot_union,
+    plot_voronoi,
+)
 from alphamesh.plot.complexes import plot_complex, plot_delaunay, plot_filtration
 from alphamesh.plot.drawing import Drawing, plot_cloud
+from alphamesh.plot.growth import GrowthView
+from alphamesh.plot.outlines import plot_frame, plot_hull
 from alphamesh.plot.overview import plot_overview
 from alphamesh.plot.render import FIGURE_FORMATS, figure_bytes
+from alphamesh.plot.steps import plot_outlines, plot_radii, three_radii
+from alphamesh.plot.story import plot_story
 from alphamesh.plot.style import COLORS
+from alphamesh.plot.topology import plot_barcode, plot_betti, plot_diagram
 
 __all__ = [
     "COLORS",
     "FIGURE_FORMATS",
     "Drawing",
+    "GrowthView",
+    "cell_coloring",
     "figure_bytes",
+    "plot_barcode",
+    "plot_betti",
     "plot_cloud",
     "plot_complex",
     "plot_delaunay",
+    "plot_diagram",
     "plot_filtration",
+    "plot_frame",
+    "plot_hull",
+    "plot_outlines",
     "plot_overview",
+    "plot_radii",
+    "plot_restricted_voronoi",
+    "plot_story",
+    "plot_union",
+    "plot_voronoi",
+    "three_radii",
 ]

@@ -20,12 +20,15 @@ if TYPE_CHECKING:
 
     from alphamesh.delaunay import Delaunay
     from alphamesh.filtration import Filtration
-    from alphamesh.shape import AlphaShape
+    from alphamesh.simplices import SimplexSet
 
-__all__ = ["plot_complex", "plot_delaunay", "plot_filtration"]
+__all__ = ["add_complex", "plot_complex", "plot_delaunay", "plot_filtration"]
 
 # Least width in 1/72 inch of edges that stand alone, across a gap in a dense cloud.
 _LONG_EDGE = 0.3
+
+# From this share of the points on, isolated vertices are a crowd.
+_CROWD = 0.1
 
 # A value's colour is one of so many: enough for the eye, few enough to draw fast.
 _LEVELS = 128
@@ -65,12 +68,12 @@ def _long(points: NDArray[np.float64], edges: NDArray[np.integer]) -> NDArray[np
     return np.asarray(lengths > 6 * point_spacing(points))
 
 
-def plot_complex(shape: AlphaShape, ax: Axes | None = None) -> Drawing:
+def plot_complex(shape: SimplexSet, ax: Axes | None = None) -> Drawing:
     """Draw an alpha complex: triangles, their border, and what belongs to no triangle.
 
     Parameters
     ----------
-    shape : AlphaShape
+    shape : AlphaShape or Selection
         The complex at one radius.
     ax : matplotlib.axes.Axes, optional
         Axes to draw on; new ones in a new figure if None.
@@ -83,6 +86,12 @@ def plot_complex(shape: AlphaShape, ax: Axes | None = None) -> Drawing:
         ``"singular_edges"`` and ``"isolated_vertices"``.
     """
     canvas = Canvas(shape.points, ax)
+    add_complex(canvas, shape)
+    return canvas.drawing()
+
+
+def add_complex(canvas: Canvas, shape: SimplexSet) -> None:
+    """Add a complex to a canvas that holds its points."""
     size = canvas.sizes
     canvas.triangles("triangles", shape.triangles)
     if size.shows_edges:
@@ -91,8 +100,11 @@ def plot_complex(shape: AlphaShape, ax: Axes | None = None) -> Drawing:
     canvas.segments("singular_edges", shape.singular_edges, size.singular)
     if size.shows_vertices:
         canvas.markers("vertices", np.unique(shape.edges), 0.7 * size.point)
-    canvas.markers("isolated_vertices", shape.isolated_vertices, size.isolated)
-    return canvas.drawing()
+    isolated = shape.isolated_vertices
+    # One alone must be seen; many together must not hide where they are.
+    crowd = len(isolated) > _CROWD * len(shape.points)
+    diameter = min(size.isolated, max(size.point, 0.35 * size.spacing)) if crowd else None
+    canvas.markers("isolated_vertices", isolated, diameter or size.isolated)
 
 
 def plot_filtration(filtration: Filtration, ax: Axes | None = None) -> Drawing:

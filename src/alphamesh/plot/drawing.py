@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.markers import MarkerStyle
 from numpy.typing import NDArray
 
-from alphamesh.plot.paths import segment_paths, triangle_paths
+from alphamesh.plot.paths import line_paths, triangle_paths
 from alphamesh.plot.style import COLORS, LAYERS, frame, sizes
 from alphamesh.points import as_cloud, coordinate_error
 
@@ -104,14 +104,19 @@ class Canvas:
         What rows refer to; the axes are made to hold all of it.
     ax : matplotlib.axes.Axes, optional
         New axes without ticks in a new figure if None.
+    reach : float, default 0
+        How far what is drawn reaches beyond the points, in their units; as much of it
+        as leaves the points in the middle of attention is shown.
     """
 
-    def __init__(self, points: NDArray[np.float64], ax: Axes | None) -> None:
+    def __init__(
+        self, points: NDArray[np.float64], ax: Axes | None, *, reach: float = 0.0
+    ) -> None:
         self._owned = ax is None
         if ax is None:
             ax = new_figure(6, 6).add_axes((0.02, 0.02, 0.96, 0.96))
             ax.set_axis_off()
-        frame(ax, points)
+        frame(ax, points, reach)
         self.ax = ax
         self.points = points
         self.sizes = sizes(points, ax)
@@ -143,34 +148,50 @@ class Canvas:
     def segments(self, role: str, edges: NDArray[np.integer], width: float) -> None:
         """Draw edges as lines of `width` (1/72 inch); nothing for no rows."""
         for start in range(0, len(edges), _PER_ARTIST):
-            self.paths(
-                role,
-                segment_paths(self.points, edges[start : start + _PER_ARTIST]),
-                of=len(edges),
-                facecolors="none",
-                edgecolors=COLORS[role],
-                linewidths=width,
-                capstyle="round",
-            )
+            ends = self.points[edges[start : start + _PER_ARTIST]]
+            self.strokes(role, line_paths(ends), width, of=len(edges))
+
+    def strokes(self, role: str, paths: list[Path], width: float, *, of: int) -> None:
+        """Draw paths as lines of `width` (1/72 inch); they hold some of `of` things."""
+        self.paths(
+            role,
+            paths,
+            of=of,
+            facecolors="none",
+            edgecolors=COLORS[role],
+            linewidths=width,
+            capstyle="round",
+        )
 
     def triangles(self, role: str, triangles: NDArray[np.integer]) -> None:
         """Fill triangles, all of which turn the same way; nothing for no rows."""
         for start in range(0, len(triangles), _PER_ARTIST):
-            self.paths(
-                role,
-                triangle_paths(self.points, triangles[start : start + _PER_ARTIST]),
-                of=len(triangles),
-                facecolors=COLORS[role],
-                edgecolors=COLORS[role],
-                linewidths=0.3,  # closes the seam between one path and the next
-                joinstyle="round",
-            )
+            part = triangles[start : start + _PER_ARTIST]
+            self.fill(role, triangle_paths(self.points, part), of=len(triangles))
+
+    def fill(self, role: str, paths: list[Path], *, of: int, color: str | None = None) -> None:
+        """Fill paths that hold some of `of` things, all outlines of which turn one way."""
+        color = COLORS[role] if color is None else color
+        self.paths(
+            role,
+            paths,
+            of=of,
+            facecolors=color,
+            edgecolors=color,
+            linewidths=0.3,  # closes the seam between one path and the next
+            joinstyle="round",
+        )
 
     def paths(self, role: str, paths: list[Path], *, of: int, **look: Any) -> None:
-        """Add paths that hold some of `of` simplices."""
+        """Add paths that hold some of `of` simplices; nothing for no paths."""
+        if not paths:
+            return
         artist = PathCollection(
             paths, zorder=LAYERS[role], rasterized=of > _RASTER_FROM, **look
         )
         artist.set_snap(False)
+        # A single path would be measured curve by curve, in Python, to be stamped as a
+        # marker; two links, to nowhere, prevent it.
+        artist.set_urls([None, None])
         self.ax.add_collection(artist, autolim=False)
         self._artists.setdefault(role, []).append(artist)

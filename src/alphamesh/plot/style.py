@@ -12,14 +12,32 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["COLORMAP", "COLORS", "LAYERS", "Sizes", "frame", "point_spacing", "sizes"]
+__all__ = [
+    "CELL_COLORS",
+    "COLORMAP",
+    "COLORS",
+    "LAYERS",
+    "Sizes",
+    "frame",
+    "on_paper",
+    "point_spacing",
+    "sizes",
+]
 
 Points = NDArray[np.float64]
 
 
 # By the role of what is drawn; blue against orange is safe for colour-blind readers.
 COLORS: Mapping[str, str] = {
+    "hull": "#e9eff6",
+    "frame_edges": "#c9ced6",
+    "cells": "#f3ddb8",
+    "union": "#f6dfb6",
     "triangles": "#c6e0f3",
+    "segments": "#ffffff",
+    "ridges": "#8a6a3c",
+    "arcs": "#8a5a14",
+    "hull_edges": "#0b4f8a",
     "edges": "#8793a3",
     "interior_edges": "#86b6da",
     "boundary_edges": "#0b4f8a",
@@ -27,6 +45,12 @@ COLORS: Mapping[str, str] = {
     "singular_edges": "#d55e00",
     "vertices": "#0b4f8a",
     "isolated_vertices": "#b0127b",
+    "frame_points": "#a3abb7",
+    "corners": "#0b4f8a",
+    "components": "#0b4f8a",
+    "holes": "#d55e00",
+    "radius": "#b0127b",
+    "diagonal": "#c9ced6",
     "title": "#22262b",
     "text": "#6b7280",
 }
@@ -35,6 +59,13 @@ COLORS: Mapping[str, str] = {
 LAYERS = {role: layer for layer, role in enumerate(COLORS)}
 
 COLORMAP = "viridis"
+
+# Cells that meet get different ones: light, so that what lies on them is seen, and apart
+# from one another for colour-blind readers, too.
+CELL_COLORS = ("#dfc690", "#99c6f4", "#b4e6c1", "#e9ae9d", "#dbc7e3", "#e1eeb6", "#bcc9c4")
+
+# The most that a picture reaches beyond the cloud, as a share of its longest side.
+_FARTHEST = 0.12
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,13 +149,24 @@ def _on_paper(points: Points, ax: Axes) -> float:
     shares = [
         spacing / side * room
         for side, room in zip(extent, (box.width, box.height), strict=True)
-        if side >= spacing
+        if side >= spacing or side == extent.max()
     ]
     return float(min(shares)) * 72 / dpi
 
 
-def frame(ax: Axes, points: Points) -> None:
-    """Give `ax` equal units on both axes and limits that hold `points` with a margin."""
+def on_paper(length: float, ax: Axes) -> float:
+    """Return a length, in the units of the data, in typographic points."""
+    box = ax.get_window_extent()
+    across, up = (abs(np.ptp(limits)) for limits in (ax.get_xlim(), ax.get_ylim()))
+    pixels = min(box.width / across, box.height / up)
+    return float(length * pixels) * 72 / float(ax.figure.figure.dpi)
+
+
+def frame(ax: Axes, points: Points, reach: float = 0.0) -> None:
+    """Give `ax` equal units on both axes and limits that hold `points` with a margin.
+
+    The margin grows with `reach`, how far discs or cells go beyond the points.
+    """
     ax.set_aspect("equal")
     ax.set_xmargin(0)
     ax.set_ymargin(0)
@@ -136,7 +178,7 @@ def frame(ax: Axes, points: Points) -> None:
     longest = float((high - low).max())
     if longest == 0:
         longest = max(float(np.abs(high).max()), 1.0)
-    pad = 0.025 * longest
+    pad = 0.025 * longest + min(reach, _FARTHEST * longest)
     # A flat cloud still gets a box that has an inside.
     thin = np.maximum(0.05 * longest - (high - low), 0) / 2
     low, high = low - pad - thin, high + pad + thin

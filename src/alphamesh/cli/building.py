@@ -1,0 +1,124 @@
+"""From an input to its complex: the steps that most commands share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from alphamesh.cli.command import json_option, quiet_option, threads_option
+from alphamesh.cli.inputs import Input, InputOptions, load, sampling_options, table_options
+from alphamesh.cli.outputs import Outputs, write_bytes
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import counted, points_text, print_json, print_lines, size_text
+from alphamesh.cli.types import AUTO, RadiusType
+
+if TYPE_CHECKING:
+    from alphamesh.complex import AlphaComplex
+    from alphamesh.radius import RadiusChoice
+
+__all__ = [
+    "Job",
+    "cloud_options",
+    "need_matplotlib",
+    "radius_option",
+    "save_figure",
+    "source_argument",
+]
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+source_argument = click.argument("source", metavar="INPUT")
+
+radius_option = click.option(
+    "-r",
+    "--radius",
+    type=RadiusType(),
+    default=AUTO,
+    show_default=True,
+    help="Radius in the units of the points, or the rule that chooses it.",
+)
+
+
+def cloud_options(command: Function) -> Function:
+    """Add the options of every command that reads a cloud and tells of it."""
+    for option in (quiet_option, json_option, threads_option, table_options, sampling_options):
+        command = option(command)
+    return command
+
+
+def need_matplotlib(pictures: bool = True) -> None:
+    """Say before the work if matplotlib is missing though pictures are asked for."""
+    if pictures:
+        import alphamesh.plot  # noqa: F401
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """An input, the complex that was made of it, and how to tell of both."""
+
+    given: Input
+    complex: AlphaComplex
+    as_json: bool
+
+    @classmethod
+    def begin(cls, source: str, options: dict[str, Any], steps: Steps) -> Job:
+        """Read `source` and build its complex; of `options`, those of `cloud_options` count."""
+        from alphamesh.complex import AlphaComplex
+
+        of_input = {field.name: options[field.name] for field in fields(InputOptions)}
+        given = load(source, InputOptions(**of_input), steps)
+        with steps.step(f"Triangulating {counted(len(given.points), 'point')}") as done:
+            built = AlphaComplex(given.points, threads=options["threads"], progress=done)
+        return cls(given, built, options["as_json"])
+
+    def choose(self, radius: float | str, steps: Steps) -> RadiusChoice:
+        """Return the radius given, or the one that a rule chooses."""
+        from alphamesh.radius import RadiusChoice
+
+        if not isinstance(radius, str):
+            return RadiusChoice(radius, "given", "Given on the command line.")
+        with steps.step("Choosing the radius"):
+            return self.complex.choose_radius(radius)
+
+    @property
+    def duplicates(self) -> int:
+        """Points that repeat an earlier one."""
+        return len(self.complex.points) - len(self.complex.simplices[0])
+
+    def tell(self, facts: dict[str, Any], lines: dict[str, str], outputs: Outputs) -> None:
+        """Print input, results and files; end with an error if a file failed."""
+        points = len(self.complex.points)
+        sizes = outputs.sizes()
+        if self.as_json:
+            print_json(
+                {
+                    "input": self.given.facts,
+                    "points": points,
+                    "duplicates": self.duplicates,
+                    **facts,
+                    "files": [{"path": path, "bytes": size} for path, size in sizes.items()],
+                    "failures": outputs.failures,
+                }
+            )
+        else:
+            written = [f"{path}  ({size_text(size)})" for path, size in sizes.items()]
+            print_lines(
+                {
+                    "Input": self.given.text,
+                    "Points": points_text(points, self.duplicates),
+                    **lines,
+                    **({"Written": "\n".join(written)} if written else {}),
+                }
+            )
+        outputs.raise_failures()
+
+
+def save_figure(figure: Any, path: Path, dpi: float | None = None) -> None:
+    """Write a figure, whole or not at all."""
+    from alphamesh.plot import figure_bytes
+
+    write_bytes(figure_bytes(figure, path.suffix.lower().removeprefix("."), dpi=dpi), path)

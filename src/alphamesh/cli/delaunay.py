@@ -1,0 +1,152 @@
+"""``alphamesh delaunay``: the triangulation of a cloud, convex or carved by a frame."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
+
+from alphamesh.cli.building import (
+    Job,
+    cloud_options,
+    need_matplotlib,
+    save_figure,
+    source_argument,
+)
+from alphamesh.cli.command import Command
+from alphamesh.cli.outputs import Output, Outputs, check_targets
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import number
+from alphamesh.cli.types import FigureFile, MeshFile
+
+if TYPE_CHECKING:
+    from alphamesh.delaunay import Delaunay
+    from alphamesh.frame import FramedDelaunay
+
+__all__ = ["command"]
+
+# Those of alphamesh.frame.FRAME_SHAPES, known before it is loaded.
+_FRAMES = ("box", "circle", "hull")
+
+_EXAMPLES = (
+    "alphamesh delaunay points.csv -o mesh.vtu",
+    "alphamesh delaunay points.csv --frame hull --spacing 0.5 -o mesh.ply --plot mesh.png",
+    "alphamesh delaunay demo:eight --frame box --plot frame.png",
+)
+
+
+@click.command("delaunay", cls=Command, examples=_EXAMPLES)
+@source_argument
+@click.option(
+    "-o",
+    "--output",
+    "meshes",
+    type=MeshFile(),
+    multiple=True,
+    help="Write the triangles here; the extension tells the format. Can be given several "
+    "times.",
+)
+@click.option(
+    "--frame",
+    "shape",
+    type=click.Choice(_FRAMES),
+    help="Put a frame of points around the cloud and drop the triangles that touch it.",
+)
+@click.option(
+    "--margin", type=float, metavar="D", help="Distance of the frame.  [default: as points]"
+)
+@click.option(
+    "--spacing",
+    type=float,
+    metavar="D",
+    help="Distance of points on the frame.  [default: as points]",
+)
+@click.option("--plot", "picture", type=FigureFile(), help="Draw the triangulation.")
+@cloud_options
+def command(
+    source: str,
+    meshes: tuple[Path, ...],
+    shape: str | None,
+    picture: Path | None,
+    **options: Any,
+) -> None:
+    """Triangulate a cloud.
+
+    INPUT is a mask image, a file of points, "-" for a table on standard input,
+    or demo:NAME for a built-in shape. The triangulation fills the convex hull;
+    with --frame it gives way where points of the frame come close.
+    """
+    margin, spacing = options["margin"], options["spacing"]
+    if shape is None and (margin is not None or spacing is not None):
+        raise click.UsageError("--margin and --spacing are those of a frame: add --frame box")
+    check_targets([*meshes, *([picture] if picture else [])], source)
+    need_matplotlib(picture is not None)
+    outputs = Outputs()
+    with Steps(quiet=options["quiet"]) as steps:
+        job = Job.begin(source, options, steps)
+        with steps.step("Finding neighbours"):
+            made = _made(job, shape, margin, spacing)
+        files = [Output(path, lambda path: _write(made, path)) for path in meshes]
+        if picture is not None:
+            files.append(Output(picture, lambda path: _draw(made, path)))
+        outputs.write(files, steps)
+    facts, lines = _told(made)
+    job.tell(facts, lines, outputs)
+
+
+def _made(
+    job: Job, shape: str | None, margin: float | None, spacing: float | None
+) -> Delaunay | FramedDelaunay:
+    if shape is None:
+        return job.complex.delaunay
+    from alphamesh.frame import Frame, framed_delaunay
+
+    return framed_delaunay(job.complex.points, Frame(shape, margin, spacing))
+
+
+def _told(made: Delaunay | FramedDelaunay) -> tuple[dict[str, Any], dict[str, str]]:
+    from alphamesh.frame import FramedDelaunay
+    from alphamesh.measures import triangle_areas
+
+    area = float(triangle_areas(made.points, made.triangles).sum())
+    hull_edges = int(np.count_nonzero(made.neighbors < 0))
+    facts: dict[str, Any] = {
+        "triangles": len(made.triangles),
+        "edges": len(made.edges),
+        "boundary_edges": hull_edges,
+        "area": area,
+    }
+    lines = {
+        "Triangles": f"{len(made.triangles):,}",
+        "Edges": f"{len(made.edges):,}, {hull_edges:,} of them on the boundary",
+        "Area": number(area),
+    }
+    if isinstance(made, FramedDelaunay):
+        facts |= {
+            "frame": made.frame.shape,
+            "frame_points": len(made.frame_points),
+            "dropped": len(made.full.triangles) - len(made.triangles),
+        }
+        lines["Frame"] = f"{made.frame.shape}, {len(made.frame_points):,} points"
+    return facts, lines
+
+
+def _write(made: Delaunay | FramedDelaunay, path: Path) -> None:
+    from alphamesh.io.meshes import Mesh, write_mesh
+
+    cells: dict[str, Any] = {"triangle": made.triangles}
+    path_edges = getattr(made, "path", None)
+    if path_edges is not None and len(path_edges):
+        cells["line"] = path_edges
+    write_mesh(Mesh(made.points, cells), path)
+
+
+def _draw(made: Delaunay | FramedDelaunay, path: Path) -> None:
+    from alphamesh.frame import FramedDelaunay
+    from alphamesh.plot import plot_delaunay, plot_frame
+
+    framed = isinstance(made, FramedDelaunay)
+    drawing = plot_frame(made) if framed else plot_delaunay(made)  # type: ignore[arg-type]
+    save_figure(drawing.figure, path)

@@ -1,0 +1,127 @@
+"""``alphamesh persistence``: when components and holes come and go."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
+
+from alphamesh.cli.building import (
+    Job,
+    cloud_options,
+    need_matplotlib,
+    radius_option,
+    save_figure,
+    source_argument,
+)
+from alphamesh.cli.command import Command
+from alphamesh.cli.outputs import Output, Outputs, check_targets
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import number
+from alphamesh.cli.tables import TableFile, write_table
+from alphamesh.cli.types import FigureFile
+
+if TYPE_CHECKING:
+    from alphamesh.persistence import Persistence
+
+__all__ = ["command"]
+
+# How many of the holes that last longest are told.
+_TOLD = 5
+
+_EXAMPLES = (
+    "alphamesh persistence points.csv -o pairs.csv",
+    "alphamesh persistence shape.png --plot diagram.png --plot-as barcode",
+    "alphamesh persistence demo:cheese --json",
+)
+
+
+@click.command("persistence", cls=Command, examples=_EXAMPLES)
+@source_argument
+@click.option(
+    "-o",
+    "--output",
+    "tables",
+    type=TableFile(),
+    multiple=True,
+    help="Write dimension, birth and death of every class here: .csv, .tsv or .npz. Can be "
+    "given several times.",
+)
+@click.option("--squared", is_flag=True, help="Write squared radii, the values of GUDHI.")
+@click.option("--plot", "picture", type=FigureFile(), help="Draw the classes.")
+@click.option(
+    "--plot-as",
+    "view",
+    type=click.Choice(["diagram", "barcode", "betti"]),
+    default="diagram",
+    show_default=True,
+    help="Death against birth, bars, or how many there are at each radius.",
+)
+@radius_option
+@cloud_options
+def command(
+    source: str,
+    tables: tuple[Path, ...],
+    squared: bool,
+    picture: Path | None,
+    radius: float | str,
+    **options: Any,
+) -> None:
+    """Tell at which radii components and holes of the complex come and go.
+
+    INPUT is a mask image, a file of points, "-" for a table on standard input,
+    or demo:NAME for a built-in shape. The radius, chosen unless given, is only
+    marked in the picture.
+    """
+    check_targets([*tables, *([picture] if picture else [])], source)
+    need_matplotlib(picture is not None)
+    outputs = Outputs()
+    with Steps(quiet=options["quiet"]) as steps:
+        job = Job.begin(source, options, steps)
+        with steps.step("Pairing simplices") as done:
+            pairs = job.complex.persistence(threads=options["threads"], progress=done)
+        files = [Output(path, lambda path: _write(pairs, squared, path)) for path in tables]
+        if picture is not None:
+            marked = job.choose(radius, steps).radius
+
+            def draw(path: Path) -> None:
+                from alphamesh.cli.plot import figure_of
+
+                save_figure(figure_of(options["view"], job.complex, marked), path)
+
+            files.append(Output(picture, draw))
+        outputs.write(files, steps)
+    facts, lines = _told(pairs)
+    job.tell(facts, lines, outputs)
+
+
+def _told(pairs: Persistence) -> tuple[dict[str, Any], dict[str, str]]:
+    components, holes = pairs.diagrams()
+    by_length = np.argsort(holes[:, 0] - holes[:, 1], kind="stable")
+    longest = holes[by_length[:_TOLD]]
+    finite = components[np.isfinite(components[:, 1]), 1]
+    joined = float(finite.max(initial=0.0))
+    facts = {
+        "components": len(components),
+        "holes": len(holes),
+        "connected_from": joined,
+        "longest_holes": longest,
+    }
+    bars = [f"{number(birth)} to {number(death)}" for birth, death in longest]
+    lines = {
+        "Components": f"{len(components):,}, all joined at radius {number(joined)}",
+        "Holes": f"{len(holes):,} that come and go",
+        "Longest holes": "\n".join(bars) or "none",
+    }
+    return facts, lines
+
+
+def _write(pairs: Persistence, squared: bool, path: Path) -> None:
+    diagrams = pairs.diagrams(squared=squared)
+    rows = np.concatenate(diagrams)
+    dimension = np.repeat(np.arange(2), [len(diagram) for diagram in diagrams])
+    columns = {"dimension": dimension, "birth": rows[:, 0], "death": rows[:, 1]}
+    arrays = {f"dimension_{k}": diagram for k, diagram in enumerate(diagrams)}
+    write_table(path, columns, arrays)

@@ -1,0 +1,146 @@
+"""``alphamesh plot``: one picture of a cloud, in one of many views."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from alphamesh.cli.building import (
+    Job,
+    cloud_options,
+    need_matplotlib,
+    radius_option,
+    save_figure,
+    source_argument,
+)
+from alphamesh.cli.command import Command
+from alphamesh.cli.outputs import Output, Outputs, check_targets
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import number
+from alphamesh.cli.types import FigureFile
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from alphamesh.complex import AlphaComplex
+
+__all__ = ["VIEWS", "command", "figure_of"]
+
+# Each view by its name, and whether it shows a radius.
+VIEWS: dict[str, bool] = {
+    "story": True,
+    "overview": True,
+    "outlines": False,
+    "radii": False,
+    "cloud": False,
+    "hull": False,
+    "voronoi": False,
+    "delaunay": False,
+    "frame": False,
+    "filtration": False,
+    "restricted": True,
+    "union": True,
+    "complex": True,
+    "diagram": True,
+    "barcode": True,
+    "betti": True,
+}
+
+_EXAMPLES = (
+    "alphamesh plot shape.png -o story.png",
+    "alphamesh plot points.csv --view restricted --radius 0.5 -o cells.svg",
+    "alphamesh plot demo:cheese -n 20000 --view betti -o betti.pdf",
+)
+
+
+@click.command("plot", cls=Command, examples=_EXAMPLES)
+@source_argument
+@click.option(
+    "-o",
+    "--output",
+    "pictures",
+    type=FigureFile(),
+    multiple=True,
+    required=True,
+    help="Write the picture here: .png, .pdf or .svg. Can be given several times.",
+)
+@click.option(
+    "--view",
+    type=click.Choice(list(VIEWS)),
+    default="story",
+    show_default=True,
+    help="What to draw: story is hull, Voronoi, Delaunay, cut cells and complex together.",
+)
+@radius_option
+@click.option(
+    "--dpi",
+    type=click.FloatRange(20, 1200),
+    metavar="N",
+    help="Pixels per inch of a PNG.  [default: 160]",
+)
+@cloud_options
+def command(
+    source: str,
+    pictures: tuple[Path, ...],
+    view: str,
+    radius: float | str,
+    dpi: float | None,
+    **options: Any,
+) -> None:
+    """Draw one picture of a cloud.
+
+    INPUT is a mask image, a file of points, "-" for a table on standard input,
+    or demo:NAME for a built-in shape. Some views show one radius: it is chosen
+    unless given.
+    """
+    check_targets(pictures, source)
+    need_matplotlib()
+    outputs = Outputs()
+    with Steps(quiet=options["quiet"]) as steps:
+        job = Job.begin(source, options, steps)
+        facts: dict[str, Any] = {"view": view}
+        lines = {"View": view}
+        chosen = None
+        if VIEWS[view]:
+            choice = job.choose(radius, steps)
+            chosen = choice.radius
+            facts.update(radius=chosen, rule=choice.rule)
+            lines["Radius"] = f"{number(chosen)}  ({choice.rule})"
+        with steps.step("Drawing"):
+            figure = figure_of(view, job.complex, chosen)
+        files = [Output(path, lambda path: save_figure(figure, path, dpi)) for path in pictures]
+        outputs.write(files, steps)
+    job.tell(facts, lines, outputs)
+
+
+def figure_of(view: str, built: AlphaComplex, radius: float | None) -> Figure:
+    """Return the figure of a view; `radius` is needed by those that show one."""
+    from alphamesh import plot
+    from alphamesh.frame import framed_delaunay
+
+    composed: dict[str, Callable[[], Figure]] = {
+        "story": lambda: plot.plot_story(built, radius),
+        "overview": lambda: plot.plot_overview(built, radius),
+        "outlines": lambda: plot.plot_outlines(built),
+        "radii": lambda: plot.plot_radii(built),
+    }
+    if view in composed:
+        return composed[view]()
+    single: dict[str, Callable[[], plot.Drawing]] = {
+        "cloud": lambda: plot.plot_cloud(built.points),
+        "hull": lambda: plot.plot_hull(built.convex_hull),
+        "voronoi": lambda: plot.plot_voronoi(built.voronoi),
+        "delaunay": lambda: plot.plot_delaunay(built.delaunay),
+        "frame": lambda: plot.plot_frame(framed_delaunay(built.points)),
+        "filtration": lambda: plot.plot_filtration(built.filtration),
+        "restricted": lambda: plot.plot_restricted_voronoi(built.restricted_voronoi(radius)),
+        "union": lambda: plot.plot_union(built.restricted_voronoi(radius)),
+        "complex": lambda: built.plot(radius),
+        "diagram": lambda: plot.plot_diagram(built.persistence(), radius=radius),
+        "barcode": lambda: plot.plot_barcode(built.persistence(), radius=radius),
+        "betti": lambda: plot.plot_betti(built.persistence(), radius=radius),
+    }
+    return single[view]().figure

@@ -1,0 +1,113 @@
+"""``alphamesh radius``: which radius to take, and why."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from alphamesh.cli.building import Job, cloud_options, source_argument
+from alphamesh.cli.command import Command
+from alphamesh.cli.outputs import Outputs
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import counted, number
+from alphamesh.cli.types import AUTO, BettiType
+
+if TYPE_CHECKING:
+    from alphamesh.radius import RadiusChoice
+
+__all__ = ["command"]
+
+# Options of rules; what a rule does not know, it refuses by itself.
+_OPTIONS = ("betti", "components", "holes", "min_hole", "regions", "triangles")
+
+_EXAMPLES = (
+    "alphamesh radius points.csv",
+    "alphamesh radius shape.png --holes 2",
+    "alphamesh radius points.csv --rule regions --regions 3 --json",
+)
+
+
+@click.command("radius", cls=Command, examples=_EXAMPLES)
+@source_argument
+@click.option("--rule", default=AUTO, show_default=True, help="The rule that chooses.")
+@click.option(
+    "--betti",
+    type=BettiType(),
+    metavar="B0,B1",
+    help="Where the shape has exactly so many components and holes.",
+)
+@click.option("--components", type=click.IntRange(1), metavar="N", help="So many components.")
+@click.option("--holes", type=click.IntRange(0), metavar="N", help="So many holes.")
+@click.option(
+    "--min-hole", type=float, metavar="R", help="Holes of at least this radius count."
+)
+@click.option("--regions", type=click.IntRange(1), metavar="N", help="At most N regions.")
+@click.option("--triangles", type=click.IntRange(1), metavar="N", help="At least N triangles.")
+@cloud_options
+def command(source: str, rule: str, **options: Any) -> None:
+    """Choose a radius for a cloud, and say why.
+
+    INPUT is a mask image, a file of points, "-" for a table on standard input,
+    or demo:NAME for a built-in shape. The options --betti, --components,
+    --holes and --min-hole are those of the rule topology, --regions and
+    --triangles those of the rules regions and triangle-count.
+    """
+    from alphamesh.radius import DEFAULT_RULE, rule_names
+
+    if rule == AUTO:
+        rule = DEFAULT_RULE
+    if rule not in rule_names():
+        raise click.UsageError(
+            f"there is no radius rule {rule!r}; rules: {', '.join((AUTO, *rule_names()))}"
+        )
+    wanted = {name: options.pop(name) for name in _OPTIONS}
+    wanted = {name: value for name, value in wanted.items() if value is not None}
+    with Steps(quiet=options["quiet"]) as steps:
+        job = Job.begin(source, options, steps)
+        with steps.step("Choosing the radius"):
+            choice = job.complex.choose_radius(rule, **wanted)
+    facts, lines = _told(choice)
+    job.tell(facts, lines, Outputs())
+
+
+def _told(choice: RadiusChoice) -> tuple[dict[str, Any], dict[str, str]]:
+    facts = {
+        "radius": choice.radius,
+        "rule": choice.rule,
+        "reason": choice.reason,
+        "interval": choice.interval,
+        "betti": choice.betti,
+        "confidence": choice.confidence,
+        "clear": choice.clear,
+        "strays": choice.strays,
+        "runners_up": [
+            {"low": other.low, "high": other.high, "betti": other.betti}
+            for other in choice.runners_up
+        ],
+    }
+    lines = {"Radius": f"{number(choice.radius)}  ({choice.rule})", "": choice.reason}
+    if choice.interval is not None:
+        lines["Interval"] = _range_text(*choice.interval)
+    if choice.betti is not None:
+        lines["Shape"] = _shape_text(choice.betti)
+        if choice.strays:
+            lines["Shape"] += f", beside {counted(choice.strays, 'stray piece')}"
+    if choice.confidence is not None:
+        lines["Confidence"] = f"{choice.confidence:.2f}{'' if choice.clear else ', not clear'}"
+    if choice.runners_up:
+        others = (
+            f"{_range_text(other.low, other.high)}: {_shape_text(other.betti)}"
+            for other in choice.runners_up
+        )
+        lines["Or else"] = "\n".join(others)
+    return facts, lines
+
+
+def _range_text(low: float, high: float) -> str:
+    return f"{number(low)} {'and more' if math.isinf(high) else f'to {number(high)}'}"
+
+
+def _shape_text(betti: tuple[int, ...]) -> str:
+    return f"{counted(betti[0], 'component')}, {counted(betti[1], 'hole')}"

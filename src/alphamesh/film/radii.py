@@ -1,0 +1,141 @@
+"""The radii of a film: chosen so that something happens in every frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from alphamesh._arrays import read_only
+from alphamesh.betti import checked_radii
+from alphamesh.errors import ParameterError
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import CountArray, FloatArray
+    from alphamesh.persistence import Persistence
+
+__all__ = ["RADII_RULES", "film_radii", "last_radius"]
+
+# How much of the film each rule gives to the number of simplices so far; the rest goes to
+# the logarithm of the radius.
+_SHARE_OF_COUNT: dict[str, float] = {"even": 0.5, "quantiles": 1.0, "log": 0.0}
+
+# Up to this share of the events the logarithm does not count.
+_FIRST = 0.02
+
+RADII_RULES = tuple(_SHARE_OF_COUNT)
+
+
+def film_radii(persistence: Persistence, radii: Any = None, frames: int = 100) -> FloatArray:
+    """Return the radius of each frame of a film.
+
+    Parameters
+    ----------
+    persistence : Persistence
+    radii : {"even", "quantiles", "log"} or sequence of float, optional
+        ``"quantiles"``: about as many simplices appear from each frame to the next.
+        ``"log"``: the radius grows by about the same factor. ``"even"``, the default:
+        half-way between, which shows both the many small steps and the few large ones.
+        Or the radii themselves, finite and not negative, in the units of the points.
+    frames : int, default 100
+        How many, unless `radii` lists them: the first at radius 0, the others where the
+        complex changes. If it changes less often, the discs grow in the frames between.
+
+    Returns
+    -------
+    (frames,) float64
+        Ascending, unless they were given.
+
+    Raises
+    ------
+    ParameterError
+        If `frames` is not a whole number of at least 2, or `radii` is none of the above.
+    """
+    if radii is None:
+        radii = "even"
+    if not isinstance(radii, str):
+        return _given(radii)
+    if radii not in _SHARE_OF_COUNT:
+        raise ParameterError(
+            f"there is no rule {radii!r} for the radii of a film; give radii, or one of: "
+            + ", ".join(repr(rule) for rule in RADII_RULES)
+        )
+    given: Any = frames
+    if not isinstance(given, int | np.integer) or isinstance(given, bool) or given < 2:
+        raise ParameterError(f"frames must be a whole number of at least 2; got {frames!r}")
+    events = _events(persistence)
+    if len(events) == 0:  # fewer than two points: nothing but one disc grows
+        return read_only(np.linspace(0.0, 1.0, frames))
+    if len(events) < frames - 1:
+        return read_only(np.append(0.0, _between(events, frames - 1)))
+    share = _SHARE_OF_COUNT[radii]
+    count = np.arange(len(events)) / max(len(events) - 1, 1)
+    # The first few events would take up half of all orders of magnitude.
+    floor = float(np.quantile(events, _FIRST))
+    depth = np.log(np.maximum(events / floor, 1.0))
+    along = share * count + (1 - share) * depth / max(float(depth[-1]), 1e-300)
+    wanted = np.linspace(0.0, along[-1], frames - 1)
+    chosen = np.searchsorted(along, wanted * (1 - 1e-12))
+    return read_only(np.append(0.0, events[_distinct(chosen, len(events))]))
+
+
+def last_radius(persistence: Persistence) -> float:
+    """Return the radius at which there is nothing more to see.
+
+    Beyond it are neither a gap between components nor the hole that lasts longest, only
+    flat triangles along the hull, whose circles are far larger than the cloud.
+    """
+    lives = zip(persistence.births[:2], persistence.deaths[:2], strict=True)
+    (_, joined), (births, filled) = lives
+    last = float(joined.max(initial=0.0))
+    if len(births):
+        last = max(last, float(filled[np.argmax(filled - births)]))
+    return 1.1 * last
+
+
+def _events(persistence: Persistence) -> FloatArray:
+    """Return the positive radii up to the end of the film at which the complex changes."""
+    _, edges, triangles = persistence.filtration.radii
+    events = np.unique(np.concatenate((edges, triangles)))
+    # A cloud that no hole and no gap outlasts still ends with its last change.
+    end = last_radius(persistence) or np.inf
+    return events[(events > 0) & (events <= end)]
+
+
+def _between(events: FloatArray, frames: int) -> FloatArray:
+    """Return all `events`, and radii in the widest gaps between them."""
+    ends = np.append(0.0, events)
+    parts = np.ones(len(events), dtype=np.int64)
+    gaps = np.diff(ends)
+    for _ in range(frames - len(events)):
+        parts[np.argmax(gaps / parts)] += 1
+    steps = [
+        low + (high - low) * (np.arange(1, number + 1) / number)
+        for low, high, number in zip(ends[:-1], events, parts, strict=True)
+    ]
+    radii = np.concatenate(steps)
+    radii[np.cumsum(parts) - 1] = events  # to the last bit
+    return radii
+
+
+def _distinct(chosen: CountArray, count: int) -> CountArray:
+    """Return ascending places below `count` as near to `chosen` as can be without repeats."""
+    steps = np.arange(len(chosen))
+    forward = np.maximum.accumulate(chosen - steps) + steps
+    return np.asarray(np.minimum(forward, count - len(chosen) + steps))
+
+
+def _given(radii: Any) -> FloatArray:
+    try:
+        array = np.asarray(radii, dtype=np.float64)
+    except (TypeError, ValueError):
+        array = np.empty(0)
+    if array.ndim != 1 or len(array) == 0:
+        names = ", ".join(repr(rule) for rule in RADII_RULES)
+        raise ParameterError(
+            f"radii must be a list of numbers or one of: {names}; got {radii!r}"
+        )
+    values = checked_radii(array)
+    if not np.isfinite(values).all():
+        raise ParameterError("the radii of a film must be finite: discs are drawn")
+    return read_only(values.copy())

@@ -1,0 +1,265 @@
+"""Persistence and Betti numbers as charts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from numpy.typing import NDArray
+
+from alphamesh.errors import ParameterError
+from alphamesh.plot.chart import Chart
+from alphamesh.plot.style import COLORS
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from alphamesh.persistence import Persistence
+    from alphamesh.plot.drawing import Drawing
+
+__all__ = [
+    "add_betti_curves",
+    "betti_range",
+    "betti_text",
+    "plot_barcode",
+    "plot_betti",
+    "plot_diagram",
+]
+
+_ROLES = ("components", "holes")
+
+# Finer than the pixels of any chart: marks and steps closer than this are one.
+_CELLS = 1500
+
+
+def plot_diagram(
+    persistence: Persistence, ax: Axes | None = None, *, radius: float | None = None
+) -> Drawing:
+    """Draw a persistence diagram: death against birth, one mark for each class.
+
+    Parameters
+    ----------
+    persistence : Persistence
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones in a new figure if None.
+    radius : float, optional
+        A chosen radius to mark: the classes above and to the left of the corner are those
+        that are there at that radius.
+
+    Returns
+    -------
+    Drawing
+        With the artists ``"components"``, ``"holes"``, ``"diagonal"`` and ``"radius"``.
+        Of marks that lie on one another, one is drawn. Classes that never die stand on a
+        line above the others.
+    """
+    chart = Chart(ax, "birth radius", "death radius")
+    diagrams = persistence.diagrams()
+    top = _top(diagrams, radius)
+    chart.line("diagonal", [0, top], [0, top], 0.8)
+    above = 1.06 * top
+    if any(np.isinf(rows[:, 1]).any() for rows in diagrams):
+        chart.line("diagonal", [0, top], [above, above], 0.8, style=(0, (4, 3)))
+        chart.note("never ends", (top, above), (0, 4), "right")
+    for role, rows in zip(_ROLES, diagrams, strict=True):
+        marks = np.where(np.isinf(rows), above, rows)
+        chart.marks(role, _apart(marks, top), 3.4)
+    if radius is not None:
+        chart.line("radius", [0, radius, radius], [radius, radius, above], 1.2)
+        chart.note(f"r = {radius:.4g}", (radius, radius), (6, -4), "left", "radius")
+    chart.limits((-0.03 * top, 1.03 * top), (-0.03 * top, 1.13 * top))
+    chart.ax.set_aspect("equal")
+    chart.legend({"components": "component", "holes": "hole"}, "lower right")
+    return chart.drawing()
+
+
+def plot_barcode(
+    persistence: Persistence,
+    ax: Axes | None = None,
+    *,
+    radius: float | None = None,
+    most: int = 40,
+) -> Drawing:
+    """Draw a barcode: one bar for each class, from birth to death.
+
+    Parameters
+    ----------
+    persistence : Persistence
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones in a new figure if None.
+    radius : float, optional
+        A chosen radius to mark: the bars that it crosses are the classes that are there.
+    most : int, default 40
+        How many bars of each dimension to draw: those that last longest. How many are
+        left out stands beside them.
+
+    Returns
+    -------
+    Drawing
+        With the artists ``"components"``, ``"holes"`` and ``"radius"``.
+
+    Raises
+    ------
+    ParameterError
+        If `most` is not a positive whole number.
+    """
+    given: Any = most
+    if not isinstance(given, int | np.integer) or given < 1:
+        raise ParameterError(f"most must be a whole number of at least 1; got {most!r}")
+    chart = Chart(ax, "radius", "")
+    diagrams = persistence.diagrams()
+    top = 1.08 * _top(diagrams, radius)
+    level = 0
+    for role, rows in zip(_ROLES, diagrams, strict=True):
+        order = np.argsort(rows[:, 0] - rows[:, 1], kind="stable")
+        bars = rows[order[:most]]
+        _add_bars(chart, role, np.minimum(bars, top), -level - np.arange(len(bars)))
+        level += len(bars)
+        if len(rows) > len(bars):
+            text = f"and {len(rows) - len(bars):,} shorter {role}"
+            chart.note(text, (top, -level), (0, 0), "right")
+            level += 1
+        level += 2
+    if radius is not None:
+        chart.line("radius", [radius, radius], [2, 1 - level], 1.2)
+        chart.note(f"r = {radius:.4g}", (radius, 2), (4, -2), "left", "radius")
+    chart.limits((0, top), (1 - level, 4))
+    chart.ax.set_yticks([])
+    chart.ax.spines["left"].set_visible(False)
+    chart.legend({"components": "component", "holes": "hole"}, "lower right", above=0.06)
+    return chart.drawing()
+
+
+def _add_bars(
+    chart: Chart, role: str, bars: NDArray[np.float64], levels: NDArray[np.integer]
+) -> None:
+    heights = np.repeat(levels[:, np.newaxis], 2, axis=1)
+    lines = LineCollection(
+        list(np.stack((bars, heights), axis=2)),
+        colors=COLORS[role],
+        linewidths=1.6 if len(bars) <= 60 else 0.8,
+        capstyle="butt",
+    )
+    if len(bars):
+        chart.add(role, lines)
+
+
+def plot_betti(
+    persistence: Persistence,
+    ax: Axes | None = None,
+    *,
+    radius: float | None = None,
+) -> Drawing:
+    """Draw the number of components and holes against the radius.
+
+    Parameters
+    ----------
+    persistence : Persistence
+    ax : matplotlib.axes.Axes, optional
+        Axes to draw on; new ones in a new figure if None.
+    radius : float, optional
+        A chosen radius to mark, with its Betti numbers.
+
+    Returns
+    -------
+    Drawing
+        With the artists ``"components"``, ``"holes"`` and ``"radius"``. Both axes are
+        logarithmic, as most changes come at small radii. Steps closer than a pixel are
+        drawn as one.
+    """
+    chart = Chart(ax, "radius", "how many")
+    shown = betti_range(persistence)
+    top = add_betti_curves(chart, persistence, shown)
+    if radius is not None:
+        _mark(chart, persistence, radius, shown, top)
+    return chart.drawing()
+
+
+def add_betti_curves(
+    chart: Chart, persistence: Persistence, shown: tuple[float, float]
+) -> float:
+    """Draw Betti curves from radius to radius on logarithmic axes; return the upper end."""
+    low, high = shown
+    radii, numbers = persistence.betti_curve()
+    chart.ax.set_xscale("log")
+    # Linear up to 1, so that none and one have a place of their own.
+    chart.ax.set_yscale("symlog", linthresh=1, linscale=0.5)
+    for column, role in enumerate(_ROLES):
+        x, y = _steps(radii, numbers[:, column], low)
+        (line,) = chart.ax.step(
+            np.append(x, max(high, x[-1])),
+            np.append(y, y[-1]),
+            where="post",
+            color=COLORS[role],
+            linewidth=1.6,
+        )
+        chart.keep(role, line)
+    # Room above the curves for what is written there.
+    top: float = 1.3 * max(int(numbers.max(initial=0)), 1) ** 1.35 + 2
+    chart.limits((low, high), (-0.15, top))
+    chart.ax.yaxis.set_major_formatter(lambda value, _: f"{value:,.0f}")
+    chart.ax.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    chart.legend({"components": "components", "holes": "holes"}, "upper left", columns=2)
+    return top
+
+
+def _mark(
+    chart: Chart,
+    persistence: Persistence,
+    radius: float,
+    shown: tuple[float, float],
+    top: float,
+) -> None:
+    """Mark a radius among Betti curves, and write down what it gives."""
+    low, high = shown
+    marked = min(max(radius, low), high)
+    chart.line("radius", [marked, marked], [0, top], 1.2)
+    left = marked * marked < low * high
+    b0, b1 = persistence.betti_numbers(radius).tolist()
+    text = f"r = {radius:.4g}: {betti_text(b0, b1)}"
+    offset, align = ((4, -26), "left") if left else ((-4, -26), "right")
+    chart.note(text, (marked, top), offset, align, "radius")
+
+
+def betti_text(b0: int, b1: int) -> str:
+    """Return Betti numbers in words."""
+    return f"{b0:,} component{'s' * (b0 != 1)}, {b1:,} hole{'s' * (b1 != 1)}"
+
+
+def betti_range(persistence: Persistence) -> tuple[float, float]:
+    """Return from where to where Betti numbers are worth a look, both positive."""
+    radii = persistence.betti_curve().radii[1:]
+    positive = radii[radii > 0]
+    if len(positive) == 0:
+        return 0.1, 10.0
+    low = float(np.quantile(positive, 0.01)) / 1.5
+    return low, max(1.3 * float(positive[-1]), 2 * low)
+
+
+def _top(diagrams: tuple[NDArray[np.float64], ...], radius: float | None) -> float:
+    """Return the largest radius that a chart must show, more than 0."""
+    finite = [rows[np.isfinite(rows)].max(initial=0.0) for rows in diagrams]
+    top = 1.05 * float(max(*finite, radius or 0.0))
+    return top or 1.0
+
+
+def _apart(marks: NDArray[np.float64], top: float) -> NDArray[np.float64]:
+    """Return one of the marks for each place that the eye can tell apart."""
+    places = np.floor(marks / top * _CELLS).astype(np.int64)
+    _, kept = np.unique(places[:, 0] * (2 * _CELLS) + places[:, 1], return_index=True)
+    return marks.take(np.sort(kept), axis=0)
+
+
+def _steps(
+    radii: NDArray[np.float64], numbers: NDArray[np.integer], low: float
+) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+    """Return the steps from `low` on, thinned to the first and last in each pixel."""
+    start = max(int(np.searchsorted(radii, low, side="right")) - 1, 0)
+    x, y = np.maximum(radii[start:], low), numbers[start:]
+    if len(x) > 2 * _CELLS:
+        place = (np.log(x / low) * (_CELLS / np.log(x[-1] / low))).astype(np.int64)
+        new = np.append(True, np.diff(place) > 0)
+        kept = new | np.append(new[1:], True)
+        x, y = x[kept], y[kept]
+    return x, y
