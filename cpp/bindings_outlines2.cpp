@@ -20,6 +20,9 @@ nb::object quads_array(Buffer<T>&& buffer) {
       nb::ndarray<nb::numpy, double>(reinterpret_cast<double*>(owner->data()), 2, shape, capsule));
 }
 
+// Below this, one thread is done before a second one has started.
+int threads_for_edges(int threads, std::size_t edges) { return edges < 300000 ? 1 : threads; }
+
 nb::object parts2_py(const Points2& points, const Ids& triangles, const Ids& edges,
                      const Ids& edge_triangles, const Flags1& inside) {
   const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
@@ -32,7 +35,7 @@ nb::object parts2_py(const Points2& points, const Ids& triangles, const Ids& edg
 nb::tuple outlines2_py(const Points2& points, const Ids& triangles, const Ids& edges,
                        const Ids& edge_triangles, const Ids1& region, int threads) {
   const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
-  Job job(useful_threads(threads, view.n));
+  Job job(threads_for_edges(threads, view.edge_count));
   Outlines2 out;
   run_watched(job, view.n, nb::none(), [&] { out = outlines2(view, region.data(), job); });
   return nb::make_tuple(array(std::move(out.offset)), array(std::move(out.row)),
@@ -42,7 +45,7 @@ nb::tuple outlines2_py(const Points2& points, const Ids& triangles, const Ids& e
 
 nb::tuple segment_tree2_py(const Points2& points, const Ids& edges, int threads) {
   const std::size_t k = edges.shape(0);
-  Job job(useful_threads(threads, k));
+  Job job(threads_for_edges(threads, k));
   SegmentTree2 tree;
   run_watched(job, k, nb::none(),
               [&] { tree = segment_tree2(points.data(), edges.data(), k, job); });

@@ -11,7 +11,6 @@
 namespace alphamesh {
 namespace {
 
-
 nb::tuple voronoi_vertices2_py(const Points2& points, const Ids& triangles, const Ids& edges,
                                const Ids& edge_triangles, int threads) {
   const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);

@@ -74,13 +74,27 @@ double squared(Point2 p, const Box2& b) {
   return x * x + y * y;
 }
 
+// Whether the end `at` is the nearest point of its segment, where u + v is (p - at) . d
+// and d leads to the other end; exact.
+bool at_end(Point2 p, Point2 at, Point2 other, double u, double v) {
+  const double along = u + v;
+  if (std::fabs(along) > 0x1p-48 * (std::fabs(u) + std::fabs(v))) return along <= 0.0;
+  return (u == 0.0 && v == 0.0) || dot(p, other, at, Lattice()) <= 0;
+}
+
+// Seen from the nearer end, so that long segments are no less accurate than short ones.
 double squared(Point2 p, const Segment2& s) {
-  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, x = p.x - s.a.x, y = p.y - s.a.y;
-  const double along = x * dx + y * dy, length_sq = dx * dx + dy * dy;
-  if (along <= 0.0) return x * x + y * y;
-  if (along >= length_sq) return squared(p, s.b);
-  const double cross = dx * y - dy * x;
-  return cross / length_sq * cross;
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
+  const double ax = p.x - s.a.x, ay = p.y - s.a.y, bx = p.x - s.b.x, by = p.y - s.b.y;
+  if (at_end(p, s.a, s.b, ax * dx, ay * dy)) return ax * ax + ay * ay;
+  if (at_end(p, s.b, s.a, -bx * dx, -by * dy)) return bx * bx + by * by;
+  const bool from_a = std::fabs(ax) + std::fabs(ay) < std::fabs(bx) + std::fabs(by);
+  const double u = dx * (from_a ? ay : by), v = dy * (from_a ? ax : bx);
+  double cross = u - v;
+  if (std::fabs(cross) < 0x1p-24 * (std::fabs(u) + std::fabs(v))) {
+    cross = cross_accurate(s.a, s.b, p);
+  }
+  return cross / (dx * dx + dy * dy) * cross;
 }
 
 // The best segment so far; of equally near ones, the first of the input.
@@ -149,17 +163,18 @@ class Search {
 };
 
 Point2 nearest_on(const Segment2& s, Point2 p, double& distance) {
-  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, x = p.x - s.a.x, y = p.y - s.a.y;
-  const double along = x * dx + y * dy, length_sq = dx * dx + dy * dy;
-  if (along <= 0.0 || along >= length_sq) {
-    const Point2 end = along <= 0.0 ? s.a : s.b;
+  const bool at_a = dot(p, s.b, s.a, Lattice()) <= 0;
+  if (at_a || dot(p, s.a, s.b, Lattice()) <= 0) {
+    const Point2 end = at_a ? s.a : s.b;
     distance = std::hypot(p.x - end.x, p.y - end.y);
     return end;
   }
-  const double t = along / length_sq;
+  const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, length_sq = dx * dx + dy * dy;
   distance = std::fabs(cross_accurate(s.a, s.b, p)) / std::sqrt(length_sq);
   if (distance == 0.0) return p;
-  return {s.a.x + t * dx, s.a.y + t * dy};
+  const Point2 end = squared(p, s.a) < squared(p, s.b) ? s.a : s.b;
+  const double share = ((p.x - end.x) * dx + (p.y - end.y) * dy) / length_sq;
+  return {end.x + share * dx, end.y + share * dy};
 }
 
 }  // namespace

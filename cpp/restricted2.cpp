@@ -189,9 +189,9 @@ RestrictedCells2 restricted2(const ComplexView2& view, const bool* has_triangle,
   const Parts parts(view.n, job, 2048);
   job.run(parts.count(), [&](std::size_t part) {
     const CellMaker maker(view, has_triangle, has_edge, radius, rings, centres);
-    for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
-      out.offset[v + 1] =
-          active[v] ? static_cast<std::int64_t>(maker.count_pieces(static_cast<Id>(v))) : 0;
+    for (std::size_t i = parts.begin(part); i < parts.end(part); ++i) {
+      const Id v = rings.order[i];
+      out.offset[v + 1] = active[v] ? static_cast<std::int64_t>(maker.count_pieces(v)) : 0;
     }
   });
   for (std::size_t v = 0; v < view.n; ++v) out.offset[v + 1] += out.offset[v];
@@ -202,9 +202,10 @@ RestrictedCells2 restricted2(const ComplexView2& view, const bool* has_triangle,
   out.angles = Buffer<double>(2 * pieces);
   job.run(parts.count(), [&](std::size_t part) {
     CellMaker maker(view, has_triangle, has_edge, radius, rings, centres);
-    for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
+    for (std::size_t i = parts.begin(part); i < parts.end(part); ++i) {
+      const Id v = rings.order[i];
       if (active[v]) {
-        maker.write(static_cast<Id>(v), out, static_cast<std::size_t>(out.offset[v]));
+        maker.write(v, out, static_cast<std::size_t>(out.offset[v]));
       } else {
         out.straight_area[v] = out.segment_length[v] = out.arc_length[v] = 0.0;
       }

@@ -51,6 +51,24 @@ Buffer<Id> first_triangles(const ComplexView2& view, const Id* triangle_edges,
   return first;
 }
 
+// Rows in the order in which edges, sorted in space, name them; merged ones come last.
+Buffer<Id> spatial_order_of_rows(const ComplexView2& view) {
+  Buffer<Id> order(view.n);
+  Buffer<std::uint8_t> seen(view.n);
+  std::fill(seen.begin(), seen.end(), std::uint8_t{0});
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 2 * view.edge_count; ++i) {
+    const auto v = static_cast<std::size_t>(view.edges[i]);
+    if (seen[v] != 0) continue;
+    seen[v] = 1;
+    order[count++] = view.edges[i];
+  }
+  for (std::size_t v = 0; v < view.n; ++v) {
+    if (seen[v] == 0) order[count++] = static_cast<Id>(v);
+  }
+  return order;
+}
+
 void fill_paths(const ComplexView2& view, Rings2& rings) {
   Buffer<std::int64_t> next(view.n);
   std::copy(rings.offset.begin(), rings.offset.end() - 1, next.begin());
@@ -93,6 +111,7 @@ Rings2 rings2(const ComplexView2& view, const Buffer<std::int32_t>& triangle_edg
     ++rings.offset[static_cast<std::size_t>(view.edges[i]) + 1];
   }
   for (std::size_t v = 0; v < view.n; ++v) rings.offset[v + 1] += rings.offset[v];
+  rings.order = spatial_order_of_rows(view);
   if (view.triangle_count == 0) {
     fill_paths(view, rings);
     return rings;
@@ -101,7 +120,8 @@ Rings2 rings2(const ComplexView2& view, const Buffer<std::int32_t>& triangle_edg
   const Buffer<Id> first = first_triangles(view, triangle_edges.data(), turned);
   const Parts parts(view.n, job);
   job.run(parts.count(), [&](std::size_t part) {
-    for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
+    for (std::size_t i = parts.begin(part); i < parts.end(part); ++i) {
+      const auto v = static_cast<std::size_t>(rings.order[i]);
       auto at = static_cast<std::size_t>(rings.offset[v]);
       const auto end = static_cast<std::size_t>(rings.offset[v + 1]);
       for (Id t = first[v]; at < end;) {

@@ -40,6 +40,7 @@ struct Rings2 {
   Buffer<std::int64_t> offset;    // (n + 1)
   Buffer<std::int32_t> edge;      // (2E)
   Buffer<std::int32_t> triangle;  // (2E)
+  Buffer<std::int32_t> order;     // (n): all rows, in an order that keeps neighbors together
 };
 
 // (T, 3): the edge opposite to each vertex of a row.

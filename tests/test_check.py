@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,11 +21,6 @@ RANDOM = np.random.default_rng(0).uniform(size=(60, 2))
 GRID = np.stack(np.meshgrid(np.arange(6.0), np.arange(5.0)), axis=-1).reshape(-1, 2)
 REPEATED = np.concatenate((GRID, GRID[::2]))
 LINE = np.arange(7.0)[:, np.newaxis] * [1.0, 2.0]
-
-
-def changed(result, **arrays):
-    """Return a copy of a frozen result with other arrays."""
-    return replace(result, **arrays)
 
 
 def edited(array, index, value):
@@ -66,7 +61,7 @@ def without_triangle(result, row):
     keep = np.delete(np.arange(len(result.triangles)), row)
     new_row = np.full(len(result.triangles) + 1, -1, dtype=np.int32)
     new_row[keep] = np.arange(len(keep))
-    return changed(
+    return replace(
         result, triangles=result.triangles[keep], neighbors=new_row[result.neighbors[keep]]
     )
 
@@ -123,7 +118,7 @@ def test_any_wrong_neighbor_is_found():
     for row in range(len(result.triangles)):
         broken = edited(result.neighbors, (row, row % 3), (result.neighbors[row, row % 3] + 1))
         with pytest.raises(InvalidResultError, match=rf"neighbors: .*row {row}\b") as caught:
-            check_delaunay(changed(result, neighbors=broken))
+            check_delaunay(replace(result, neighbors=broken))
         assert caught.value.rows == (row,)
 
 
@@ -134,7 +129,7 @@ def test_any_wrong_vertex_is_found():
             id_ = result.triangles[row, column]
             broken = edited(result.triangles, (row, column), (id_ + 1) % len(RANDOM))
             with pytest.raises(InvalidResultError):
-                check_delaunay(changed(result, triangles=np.sort(broken, axis=1)))
+                check_delaunay(replace(result, triangles=np.sort(broken, axis=1)))
 
 
 def star_of(*turns):
@@ -208,13 +203,13 @@ def test_bad_meshes_are_found(name):
 def test_rows_out_of_order_or_out_of_range():
     result = delaunay(RANDOM)
     for value, problem in [(-1, "no such point"), (60, "no such point")]:
-        broken = changed(result, triangles=edited(result.triangles, (4, 0), value))
+        broken = replace(result, triangles=edited(result.triangles, (4, 0), value))
         with pytest.raises(InvalidResultError, match=f"triangles: {problem}.*row 4") as caught:
             check_delaunay(broken)
         assert caught.value.rows == (4,)
     swapped = edited(result.triangles, 7, result.triangles[7, [1, 0, 2]])
     with pytest.raises(InvalidResultError, match=r"not ascending \(row 7\)"):
-        check_delaunay(changed(result, triangles=swapped))
+        check_delaunay(replace(result, triangles=swapped))
 
 
 def test_other_types_and_shapes():
@@ -223,13 +218,13 @@ def test_other_types_and_shapes():
         array = getattr(result, name)
         for broken in (array.astype(np.int64), array[:-1], array.tolist()):
             with pytest.raises(InvalidResultError):
-                check_delaunay(changed(result, **{name: broken}))
+                check_delaunay(replace(result, **{name: broken}))
     with pytest.raises(InvalidResultError, match=r"points: not finite \(row 3\)"):
-        check_delaunay(changed(result, points=edited(RANDOM, (3, 1), np.nan)))
-    with pytest.raises(InvalidResultError, match="points: .*range"):
-        check_delaunay(changed(result, points=edited(RANDOM, (3, 1), 1e300)))
+        check_delaunay(replace(result, points=edited(RANDOM, (3, 1), np.nan)))
+    with pytest.raises(InvalidResultError, match=r"points: .*range"):
+        check_delaunay(replace(result, points=edited(RANDOM, (3, 1), 1e300)))
     with pytest.raises(InvalidResultError, match="float64"):
-        check_delaunay(changed(result, points=RANDOM.astype(np.float32)))
+        check_delaunay(replace(result, points=RANDOM.astype(np.float32)))
 
 
 def test_wrong_representatives():
@@ -244,10 +239,10 @@ def test_wrong_representatives():
     ]:
         broken = edited(result.representative, row, value)
         with pytest.raises(InvalidResultError, match=problem):
-            check_delaunay(changed(result, representative=broken))
+            check_delaunay(replace(result, representative=broken))
     duplicate = np.where(result.triangles == 0, twin, result.triangles)
     with pytest.raises(InvalidResultError, match="duplicate"):
-        check_delaunay(changed(result, triangles=np.sort(duplicate, axis=1).astype(np.int32)))
+        check_delaunay(replace(result, triangles=np.sort(duplicate, axis=1).astype(np.int32)))
 
 
 def test_wrong_paths():
@@ -258,9 +253,9 @@ def test_wrong_paths():
         edited(result.path, 0, result.path[1]),
     ):
         with pytest.raises(InvalidResultError, match="edges"):
-            check_delaunay(changed(result, path=broken))
+            check_delaunay(replace(result, path=broken))
     with pytest.raises(InvalidResultError, match="path"):
-        check_delaunay(changed(delaunay(GRID), path=result.path))
+        check_delaunay(replace(delaunay(GRID), path=result.path))
 
 
 # -------------------------------------------------------- broken filtrations
@@ -276,7 +271,7 @@ def test_any_wrong_radius_is_found(points, dimension, factor):
         radii = list(result.radii)
         radii[dimension] = edited(radii[dimension], row, value * factor if value else factor)
         with pytest.raises(InvalidResultError, match="radii"):
-            check_filtration(changed(result, radii=tuple(radii)))
+            check_filtration(replace(result, radii=tuple(radii)))
 
 
 def test_a_radius_an_ulp_off_its_triangle_is_found():
@@ -289,7 +284,7 @@ def test_a_radius_an_ulp_off_its_triangle_is_found():
             value = np.nextafter(result.radii[1][row], way)
             radii = (result.radii[0], edited(result.radii[1], row, value), result.radii[2])
             with pytest.raises(InvalidResultError, match=rf"edge radii.*row {row}\b"):
-                check_filtration(changed(result, radii=radii))
+                check_filtration(replace(result, radii=radii))
 
 
 @pytest.mark.parametrize("height", [1e-6, 1e-9, 1e-15])
@@ -303,7 +298,7 @@ def test_radii_of_slivers_are_checked_too(height):
             for values in result.radii
         )
         with pytest.raises(InvalidResultError, match=r"triangle radii: .*row 0"):
-            check_filtration(changed(result, radii=radii))
+            check_filtration(replace(result, radii=radii))
 
 
 def test_any_wrong_coface_is_found():
@@ -314,7 +309,7 @@ def test_any_wrong_coface_is_found():
             value = (result.edge_triangles[row, column] + 2) % count
             broken = edited(result.edge_triangles, (row, column), value)
             with pytest.raises(InvalidResultError, match=rf"edge_triangles: .*row {row}\b"):
-                check_filtration(changed(result, edge_triangles=broken))
+                check_filtration(replace(result, edge_triangles=broken))
 
 
 def test_any_missing_or_foreign_simplex_is_found():
@@ -325,7 +320,7 @@ def test_any_missing_or_foreign_simplex_is_found():
             broken = list(result.simplices)
             broken[dimension] = edited(simplices, row, simplices[row - 1])
             with pytest.raises(InvalidResultError):
-                check_filtration(changed(result, simplices=tuple(broken)))
+                check_filtration(replace(result, simplices=tuple(broken)))
 
 
 def test_filtrations_of_a_line():
@@ -333,104 +328,6 @@ def test_filtrations_of_a_line():
     check_filtration(result)
     cofaces = edited(result.edge_triangles, (0, 0), 0)
     with pytest.raises(InvalidResultError, match="edge_triangles"):
-        check_filtration(changed(result, edge_triangles=cofaces))
+        check_filtration(replace(result, edge_triangles=cofaces))
     with pytest.raises(InvalidResultError, match="one array for each dimension"):
-        check_filtration(changed(result, simplices=result.simplices[:2]))
-
-
-# ------------------------------------------------------------- broken shapes
-
-
-@dataclass
-class Loose:
-    """An alpha shape whose parts can be changed."""
-
-    filtration: object
-    radius: float
-    points: np.ndarray
-    triangles: np.ndarray
-    edges: np.ndarray
-    singular_edges: np.ndarray
-    regular_edges: np.ndarray
-    interior_edges: np.ndarray
-    boundary_edges: np.ndarray
-    isolated_vertices: np.ndarray
-    singular_vertices: np.ndarray
-    regular_vertices: np.ndarray
-    interior_vertices: np.ndarray
-    counts: dict
-    area: float
-    perimeter: float
-
-
-def loose(radius):
-    points = np.concatenate((np.random.default_rng(1).uniform(size=(200, 2)), [[5.0, 5.0]]))
-    shape = AlphaShape(filtration(points), radius)
-    return Loose(**{field.name: getattr(shape, field.name) for field in fields(Loose)})
-
-
-ARRAYS = [field.name for field in fields(Loose) if field.name.endswith(("s", "es"))]
-ARRAYS = [name for name in ARRAYS if name not in ("radius", "points", "counts")]
-
-
-def test_a_loose_shape_passes():
-    shape = loose(0.06)
-    check_shape(shape)
-    assert min(len(getattr(shape, name)) for name in ARRAYS) > 0
-
-
-@pytest.mark.parametrize("name", ARRAYS)
-def test_any_other_row_is_found(name):
-    array = getattr(loose(0.06), name)
-    breaks = [array[1:], array.astype(np.int64), edited(array, 0, array[-1] + 1)]
-    if len(array) > 1:
-        breaks.append(array[::-1])
-    for broken in breaks:
-        with pytest.raises(InvalidResultError, match=name.replace("_", " ")):
-            check_shape(replace(loose(0.06), **{name: broken}))
-
-
-def test_another_radius_is_found():
-    for radius in (0.0, 0.059, 0.061, np.inf):
-        with pytest.raises(InvalidResultError, match="up to the radius"):
-            check_shape(replace(loose(0.06), radius=radius))
-
-
-def test_clockwise_triangles_are_found():
-    shape = loose(0.06)
-    broken = edited(shape.triangles, 3, shape.triangles[3, [0, 2, 1]])
-    with pytest.raises(InvalidResultError, match=r"not counter-clockwise \(row 3\)"):
-        check_shape(replace(shape, triangles=broken))
-
-
-def test_a_boundary_turned_round_is_found():
-    shape = loose(0.06)
-    broken = edited(shape.boundary_edges, 2, shape.boundary_edges[2, ::-1])
-    with pytest.raises(InvalidResultError, match=r"not on their left \(row 2\)"):
-        check_shape(replace(shape, boundary_edges=broken))
-
-
-def test_a_filtration_that_is_none_is_found():
-    """A triangle that comes before its edge leaves the complex open."""
-    shape = loose(0.06)
-    result = shape.filtration
-    edge = np.flatnonzero(np.isin(result.radii[1], result.radii[2]) & (result.radii[1] < 0.05))[
-        0
-    ]
-    late = edited(result.radii[1], edge, 1.0)
-    late_edge = AlphaShape(
-        changed(result, radii=(result.radii[0], late, result.radii[2])), 0.06
-    )
-    with pytest.raises(InvalidResultError, match="an edge of them is not in the complex"):
-        check_shape(late_edge)
-
-
-def test_wrong_measures_and_counts():
-    shape = loose(0.06)
-    for name in ("area", "perimeter"):
-        for factor in (1 + 1e-9, 0.0, -1.0, np.nan):
-            with pytest.raises(InvalidResultError, match=name):
-                check_shape(replace(shape, **{name: getattr(shape, name) * factor}))
-    for name, count in shape.counts.items():
-        with pytest.raises(InvalidResultError, match=f"counts: .*{name}"):
-            check_shape(replace(shape, counts={**shape.counts, name: count + 1}))
+        check_filtration(replace(result, simplices=result.simplices[:2]))

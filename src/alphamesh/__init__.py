@@ -19,38 +19,71 @@ if TYPE_CHECKING:
     from alphamesh import check, errors, plot
     from alphamesh.classify import SimplexKind
     from alphamesh.complex import AlphaComplex
+    from alphamesh.curves import MeasureCurves, measure_curves
     from alphamesh.delaunay import Delaunay, delaunay
+    from alphamesh.film import Film, animate
     from alphamesh.filtration import Filtration, filtration
+    from alphamesh.frame import FRAME_SHAPES, Frame, FramedDelaunay, framed_delaunay
+    from alphamesh.hull import ConvexHull, convex_hull
     from alphamesh.io.images import sample_mask
     from alphamesh.io.meshes import MESH_FORMATS, Mesh, write_mesh
     from alphamesh.io.points import read_points
+    from alphamesh.outline import Rings
+    from alphamesh.persistence import Persistence, persistence
+    from alphamesh.planar import Selection
+    from alphamesh.queries import Nearest
     from alphamesh.radius import RadiusChoice, choose_radius
+    from alphamesh.regions import Holes, Regions
+    from alphamesh.restricted import RestrictedVoronoi, restricted_voronoi
     from alphamesh.sampling import DEMO_SHAPES, demo_cloud, demo_mask
     from alphamesh.shape import AlphaShape
+    from alphamesh.voronoi import ClippedVoronoi, Voronoi, voronoi
 
     __version__: str
 
 __all__ = [
     "DEMO_SHAPES",
+    "FRAME_SHAPES",
     "MESH_FORMATS",
     "AlphaComplex",
     "AlphaShape",
+    "ClippedVoronoi",
+    "ConvexHull",
     "Delaunay",
+    "Film",
     "Filtration",
+    "Frame",
+    "FramedDelaunay",
+    "Holes",
+    "MeasureCurves",
     "Mesh",
+    "Nearest",
+    "Persistence",
     "RadiusChoice",
+    "Regions",
+    "RestrictedVoronoi",
+    "Rings",
+    "Selection",
     "SimplexKind",
+    "Voronoi",
     "__version__",
+    "animate",
     "check",
     "choose_radius",
+    "convex_hull",
     "delaunay",
     "demo_cloud",
     "demo_mask",
     "errors",
     "filtration",
+    "framed_delaunay",
+    "measure_curves",
+    "persistence",
     "plot",
     "read_points",
+    "restricted_voronoi",
     "sample_mask",
+    "voronoi",
     "write_mesh",
 ]
 
@@ -58,14 +91,25 @@ _MODULES = ("check", "errors", "plot")
 _HOMES = {
     "classify": ("SimplexKind",),
     "complex": ("AlphaComplex",),
+    "curves": ("MeasureCurves", "measure_curves"),
     "delaunay": ("Delaunay", "delaunay"),
+    "film": ("Film", "animate"),
     "filtration": ("Filtration", "filtration"),
+    "frame": ("FRAME_SHAPES", "Frame", "FramedDelaunay", "framed_delaunay"),
+    "hull": ("ConvexHull", "convex_hull"),
     "io.images": ("sample_mask",),
     "io.meshes": ("MESH_FORMATS", "Mesh", "write_mesh"),
     "io.points": ("read_points",),
+    "outline": ("Rings",),
+    "persistence": ("Persistence", "persistence"),
+    "planar": ("Selection",),
+    "queries": ("Nearest",),
     "radius": ("RadiusChoice", "choose_radius"),
+    "regions": ("Holes", "Regions"),
+    "restricted": ("RestrictedVoronoi", "restricted_voronoi"),
     "sampling": ("DEMO_SHAPES", "demo_cloud", "demo_mask"),
     "shape": ("AlphaShape",),
+    "voronoi": ("ClippedVoronoi", "Voronoi", "voronoi"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     IntArray: TypeAlias = NDArray[np.int32]
     CountArray: TypeAlias = NDArray[np.int64]
     KindArray: TypeAlias = NDArray[np.int8]
+    CodeArray: TypeAlias = NDArray[np.uint8]
     BoolArray: TypeAlias = NDArray[np.bool_]
 
 AnyArray = TypeVar("AnyArray", bound="np.ndarray[Any, Any]")

@@ -7,16 +7,27 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import read_only
-from alphamesh.delaunay import Delaunay
+from alphamesh.curves import MeasureCurves, measure_curves
 from alphamesh.filtration import filtration as build_filtration
+from alphamesh.hull import ConvexHull
+from alphamesh.hull import convex_hull as find_convex_hull
+from alphamesh.persistence import Persistence
+from alphamesh.persistence import persistence as find_persistence
+from alphamesh.points import Cloud
 from alphamesh.radius import DEFAULT_RULE, RadiusChoice, choose_radius
+from alphamesh.restricted import RestrictedVoronoi, restricted_voronoi
 from alphamesh.shape import AlphaShape
+from alphamesh.voronoi import Voronoi, voronoi_of
 
 if TYPE_CHECKING:
+    import os
+
     from matplotlib.axes import Axes
 
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
+    from alphamesh.delaunay import Delaunay
+    from alphamesh.film import Film
     from alphamesh.filtration import Filtration
     from alphamesh.plot import Drawing
 
@@ -59,13 +70,15 @@ class AlphaComplex:
     4.0
     """
 
-    __slots__ = ("__weakref__", "_delaunay", "_filtration")
+    __slots__ = ("__weakref__", "_filtration", "_hull", "_persistence", "_voronoi")
 
     def __init__(
         self, points: Any, *, threads: int | None = None, progress: Progress | None = None
     ) -> None:
         self._filtration = build_filtration(points, threads=threads, progress=progress)
-        self._delaunay: Delaunay | None = None
+        self._persistence: Persistence | None = None
+        self._hull: ConvexHull | None = None
+        self._voronoi: Voronoi | None = None
 
     @property
     def filtration(self) -> Filtration:
@@ -100,16 +113,62 @@ class AlphaComplex:
     @property
     def delaunay(self) -> Delaunay:
         """The Delaunay triangulation, with the neighbours of each triangle."""
-        if self._delaunay is None:
-            self._delaunay = _delaunay_of(self._filtration)
-        return self._delaunay
+        return self._filtration.delaunay
 
-    def choose_radius(self, rule: str = DEFAULT_RULE) -> RadiusChoice:
+    @property
+    def convex_hull(self) -> ConvexHull:
+        """The convex hull, without points between its corners."""
+        if self._hull is None:
+            self._hull = find_convex_hull(Cloud(self.points))
+        return self._hull
+
+    @property
+    def voronoi(self) -> Voronoi:
+        """The Voronoi diagram, dual to the triangulation."""
+        if self._voronoi is None:
+            self._voronoi = voronoi_of(self._filtration)
+        return self._voronoi
+
+    def restricted_voronoi(
+        self,
+        radius: float | None = None,
+        *,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> RestrictedVoronoi:
+        """Return every Voronoi cell cut by the disc of `radius` around its point.
+
+        Parameters
+        ----------
+        radius : float, optional
+            Finite, in the units of the points; by default the one that
+            :meth:`choose_radius` chooses.
+        threads, progress : optional
+            See :func:`alphamesh.restricted_voronoi`, also for the errors.
+        """
+        if radius is None:
+            radius = self.choose_radius().radius
+        return restricted_voronoi(self._filtration, radius, threads=threads, progress=progress)
+
+    def persistence(
+        self, *, threads: int | None = None, progress: Progress | None = None
+    ) -> Persistence:
+        """Return when components and holes come and go; computed once, near-linear time.
+
+        Parameters and errors are those of :func:`alphamesh.persistence`.
+        """
+        if self._persistence is None:
+            self._persistence = find_persistence(
+                self._filtration, threads=threads, progress=progress
+            )
+        return self._persistence
+
+    def choose_radius(self, rule: str = DEFAULT_RULE, **options: Any) -> RadiusChoice:
         """Choose a radius, and say why.
 
         Parameters and errors are those of :func:`alphamesh.choose_radius`.
         """
-        return choose_radius(self._filtration, rule)
+        return choose_radius(self._filtration, rule, **options)
 
     def at(self, radius: float | None = None) -> AlphaShape:
         """Return the complex at one radius: all simplices of value <= radius.
@@ -147,12 +206,30 @@ class AlphaComplex:
         vertices, edges, triangles = self._filtration.radii
         return read_only(np.unique(np.concatenate((vertices[:1], edges, triangles))))
 
+    def measure_curves(self) -> MeasureCurves:
+        """Return area, perimeter and counts as functions of the radius, in one pass.
+
+        Returns
+        -------
+        MeasureCurves
+        """
+        return measure_curves(self._filtration)
+
     def plot(self, radius: float | None = None, ax: Axes | None = None) -> Drawing:
         """Draw the complex at `radius` on matplotlib axes, new ones if `ax` is None.
 
         See :meth:`at` for the radius and :func:`alphamesh.plot.plot_complex`.
         """
         return self.at(radius).plot(ax)
+
+    def animate(self, path: str | os.PathLike[str], **options: Any) -> Film:
+        """Make a film of the growing radius: cells and complex side by side.
+
+        Parameters and errors are those of :func:`alphamesh.animate`.
+        """
+        from alphamesh.film import animate
+
+        return animate(self.persistence(), path, **options)
 
     def __repr__(self) -> str:
         vertices, edges, triangles = (f"{len(rows):,}" for rows in self.simplices)
@@ -172,27 +249,7 @@ def _from_filtration(kind: type[AlphaComplex], filtration: Filtration) -> AlphaC
     """Return the complex that has `filtration`, without computing it again."""
     made = kind.__new__(kind)
     made._filtration = filtration
-    made._delaunay = None
+    made._persistence = None
+    made._hull = None
+    made._voronoi = None
     return made
-
-
-def _delaunay_of(filtration: Filtration) -> Delaunay:
-    """Return the triangulation that a filtration was made of."""
-    _, edges, triangles = filtration.simplices
-    neighbors = np.full(triangles.size, -1, dtype=np.int32)
-    # Hull edges have one triangle, which keeps its -1.
-    inner = np.flatnonzero(filtration.edge_triangles.min(axis=1, initial=0) >= 0)
-    cofaces, ends = (rows.take(inner, axis=0) for rows in (filtration.edge_triangles, edges))
-    for side in (0, 1):
-        corners = triangles.take(cofaces[:, side], axis=0)
-        # Corners and ends ascend, so the corner left out is where they first differ.
-        opposite = 2 - (corners[:, 1] != ends[:, 1])
-        opposite[corners[:, 0] != ends[:, 0]] = 0
-        neighbors[3 * cofaces[:, side].astype(np.intp) + opposite] = cofaces[:, 1 - side]
-    return Delaunay(
-        filtration.points,
-        filtration.representative,
-        triangles,
-        read_only(neighbors.reshape(-1, 3)),
-        edges if len(triangles) == 0 else edges[:0],
-    )

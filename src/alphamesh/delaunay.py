@@ -10,13 +10,19 @@ import numpy as np
 
 from alphamesh import _kernels
 from alphamesh._arrays import Record, read_only
+from alphamesh._kernels.cells import locate2
+from alphamesh.errors import CoordinateRangeError, rows_text
 from alphamesh.points import as_cloud, coordinate_error
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
 
-__all__ = ["Delaunay", "delaunay"]
+__all__ = ["Delaunay", "delaunay", "edges_of"]
+
+# A number of at least this share of another one has all of its 53 digits in the range of
+# 490 binary digits that exact sums can hold.
+_ALL_DIGITS = 2.0 ** (53 - 490)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -63,16 +69,76 @@ class Delaunay(Record):
         """All edges, ``(E, 2)`` int32, ascending within an edge."""
         if len(self.triangles) == 0:
             return self.path
-        # An edge belongs to the later of its two triangles, or to its only one.
-        mine = self.neighbors < np.arange(len(self.triangles), dtype=np.int32)[:, np.newaxis]
-        opposite = self.triangles[:, [[1, 2], [0, 2], [0, 1]]]
-        return read_only(opposite[mine])
+        return edges_of(self.triangles, self.neighbors)
+
+    def find(self, queries: Any, *, threads: int | None = None) -> IntArray:
+        """Return the triangle that each query lies in; every decision is exact.
+
+        Parameters
+        ----------
+        queries : array-like of shape (m, 2)
+        threads : int, optional
+            Threads to use; by default one for each usable CPU. The result does not depend
+            on it.
+
+        Returns
+        -------
+        (m,) int32
+            Rows of `triangles`; -1 outside of all triangles. Triangles are closed: on a
+            common edge or vertex, the first of those that meet there is returned.
+
+        Raises
+        ------
+        CloudShapeError, NonFiniteError
+            If `queries` is not a table of finite numbers; the message names the rows.
+        CoordinateRangeError
+            If coordinates of queries are too small beside the points for exact arithmetic.
+        ParameterError
+            If `threads` is not what it must be.
+        """
+        wanted = as_cloud(queries).points
+        arrays = self.points, self.triangles, self.neighbors
+        try:
+            return locate2(*arrays, wanted, threads)
+        except _kernels.BadCoordinates:
+            if not np.isfinite(wanted).all():
+                raise coordinate_error(wanted) from None
+        # Queries far outside need no arithmetic to be told so.
+        low, high = self.points.min(axis=0), self.points.max(axis=0)
+        near = ((wanted >= low) & (wanted <= high)).all(axis=1)
+        found = np.full(len(wanted), -1, dtype=np.int32)
+        try:
+            found[near] = locate2(*arrays, wanted[near], threads)
+        except _kernels.BadCoordinates:
+            raise _tiny_queries(self.points, np.where(near[:, None], wanted, 0.0)) from None
+        return read_only(found)
 
     def __repr__(self) -> str:
         return (
             f"<Delaunay: {len(self.points):,} points, {len(self.triangles):,} triangles"
             f"{', on one line' if len(self.path) else ''}>"
         )
+
+
+def _tiny_queries(points: FloatArray, queries: FloatArray) -> CoordinateRangeError:
+    """Return the error for queries whose last digits lie below those that sums can hold."""
+    safe = float(np.abs(points).max()) * _ALL_DIGITS
+    sizes = np.abs(queries)
+    rows = np.flatnonzero(((sizes > 0) & (sizes < safe)).any(axis=1))
+    return CoordinateRangeError(
+        "coordinates too small beside the points for exact arithmetic in "
+        f"{rows_text(rows[:6], total=len(rows))} of the queries; set them to zero: "
+        f"queries[abs(queries) < {safe:.3g}] = 0",
+        rows=rows[:6],
+    )
+
+
+def edges_of(triangles: IntArray, neighbors: IntArray) -> IntArray:
+    """Return the edges of triangles that know their neighbors, ``(E, 2)`` int32."""
+    # An edge belongs to the later of its two triangles, or to its only one.
+    mine = neighbors < np.arange(len(triangles), dtype=np.int32)[:, np.newaxis]
+    opposite = triangles[:, [[1, 2], [0, 2], [0, 1]]]
+    return read_only(opposite[mine])
 
 
 def delaunay(

@@ -17,6 +17,7 @@ from alphamesh.classify import (
     least_at_vertices,
     vertex_intervals,
 )
+from alphamesh.delaunay import Delaunay
 from alphamesh.errors import CoordinateRangeError
 from alphamesh.measures import scaled_points, triangle_areas
 from alphamesh.points import as_cloud, coordinate_error
@@ -102,6 +103,18 @@ class Filtration(Record):
     def edge_intervals(self) -> Intervals:
         """The radii at which the edges become singular, regular and interior."""
         return edge_intervals(self.radii[1], self.edge_triangles, self.radii[2])
+
+    @cached_property
+    def triangle_edges(self) -> IntArray:
+        """The edge opposite to each corner of `simplices[2]`, ``(T, 3)`` int32."""
+        return _kernels.triangle_edges2(
+            self.points, self.simplices[2], self.simplices[1], self.edge_triangles
+        )
+
+    @cached_property
+    def delaunay(self) -> Delaunay:
+        """The triangulation that the simplices are those of, with its neighbours."""
+        return _delaunay_of(self)
 
     @cached_property
     def joined_from(self) -> FloatArray:
@@ -223,3 +236,25 @@ def _refuse_overflow(simplices: IntArray, radii: FloatArray) -> None:
             "points * 2.0**-600",
             rows=rows,
         )
+
+
+def _delaunay_of(filtration: Filtration) -> Delaunay:
+    """Return the triangulation that a filtration was made of."""
+    _, edges, triangles = filtration.simplices
+    neighbors = np.full(triangles.size, -1, dtype=np.int32)
+    # Hull edges have one triangle, which keeps its -1.
+    inner = np.flatnonzero(filtration.edge_triangles.min(axis=1, initial=0) >= 0)
+    cofaces, ends = (rows.take(inner, axis=0) for rows in (filtration.edge_triangles, edges))
+    for side in (0, 1):
+        corners = triangles.take(cofaces[:, side], axis=0)
+        # Corners and ends ascend, so the corner left out is where they first differ.
+        opposite = 2 - (corners[:, 1] != ends[:, 1])
+        opposite[corners[:, 0] != ends[:, 0]] = 0
+        neighbors[3 * cofaces[:, side].astype(np.intp) + opposite] = cofaces[:, 1 - side]
+    return Delaunay(
+        filtration.points,
+        filtration.representative,
+        triangles,
+        read_only(neighbors.reshape(-1, 3)),
+        edges if len(triangles) == 0 else edges[:0],
+    )

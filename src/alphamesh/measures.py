@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from alphamesh._arrays import ComplexArray, FloatArray, IntArray
 
-__all__ = ["scaled_points", "total_length", "triangle_areas"]
+__all__ = ["kernel_points", "scaled_points", "total_length", "triangle_areas"]
 
 # Relative error that a triangle's area may have before it is computed again.
 _TOLERATED = 1e-13
@@ -32,6 +32,24 @@ def scaled_points(points: FloatArray) -> tuple[FloatArray, int]:
     exponent = int(np.frexp(np.abs(points).max(initial=0.0))[1])
     if exponent in _SAFE_EXPONENTS:
         return points, 0
+    return np.ldexp(points, -exponent), exponent
+
+
+def kernel_points(points: FloatArray) -> tuple[FloatArray, int]:
+    """Return the points over a power of two that makes products of four safe, and its exponent.
+
+    Kernels that take a finished triangulation suppose coordinates below 2**250 whose last
+    digits are above 2**-240. A cloud spans at most 490 binary digits, so that it fits.
+    """
+    sizes = np.abs(points)
+    largest = float(sizes.max(initial=0.0))
+    least = float(sizes.min(initial=np.inf, where=sizes > 0))
+    if largest < 2.0**250 and least >= 2.0**-188:  # also where all are zero
+        return points, 0
+    # No further than it takes: a radius may be much larger or smaller than the points.
+    exponent = int(np.frexp(largest)[1]) - 250
+    if exponent < 0:
+        exponent = max(exponent, int(np.frexp(least)[1]) + 187)
     return np.ldexp(points, -exponent), exponent
 
 

@@ -8,29 +8,19 @@ from functools import cached_property
 from numbers import Real
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from alphamesh._arrays import Record, read_only
-from alphamesh.boundary import directed_boundary_edges
-from alphamesh.classify import SimplexKind, chosen, reached
+from alphamesh._arrays import read_only
+from alphamesh.classify import chosen, reached
 from alphamesh.errors import ParameterError
-from alphamesh.filtration import Filtration
-from alphamesh.measures import total_length
+from alphamesh.planar import PlanarShape
 
 if TYPE_CHECKING:
-    import os
-
-    from matplotlib.axes import Axes
-
-    from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
-    from alphamesh.io.meshes import Mesh
-    from alphamesh.plot import Drawing
+    from alphamesh._arrays import BoolArray, IntArray, KindArray
 
 __all__ = ["AlphaShape"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class AlphaShape(Record):
+class AlphaShape(PlanarShape):
     """The alpha complex of a cloud at one radius: all simplices of value <= radius.
 
     Making one costs nothing; each property is computed when it is first asked for, in a
@@ -56,29 +46,8 @@ class AlphaShape(Record):
     *regularized* shape is made of the triangles alone.
     """
 
-    filtration: Filtration
-    radius: float
-
     def __post_init__(self) -> None:
         object.__setattr__(self, "radius", _checked(self.radius))
-
-    @property
-    def points(self) -> FloatArray:
-        """The cloud, ``(n, 2)`` float64; duplicates and all."""
-        return self.filtration.points
-
-    # Which simplices
-
-    @cached_property
-    def kinds(self) -> tuple[KindArray, KindArray, KindArray]:
-        """Kind of every vertex, edge and triangle of the filtration, three int8 arrays.
-
-        ``shape.kinds[k][i]`` is the :class:`~alphamesh.classify.SimplexKind` of
-        ``shape.filtration.simplices[k][i]``: 0 exterior, 1 singular, 2 regular,
-        3 interior.
-        """
-        triangles = self._has_triangle.view(np.int8) * np.int8(SimplexKind.INTERIOR)
-        return self._vertex_kinds, self._edge_kinds, read_only(triangles)
 
     @cached_property
     def _vertex_kinds(self) -> KindArray:
@@ -93,179 +62,14 @@ class AlphaShape(Record):
         return read_only(self.filtration.radii[2] <= self.radius)
 
     @cached_property
-    def triangles(self) -> IntArray:
-        """Triangles, ``(k, 3)`` int32, each counter-clockwise from its lowest row."""
-        return chosen(self.filtration.oriented_triangles, self._has_triangle)
-
-    @cached_property
     def edges(self) -> IntArray:
         """All edges of the complex, ``(k, 2)`` int32, each ascending."""
         return chosen(self.filtration.simplices[1], self.filtration.radii[1] <= self.radius)
 
     @cached_property
-    def singular_edges(self) -> IntArray:
-        """Edges in none of the triangles, ``(k, 2)`` int32, each ascending."""
-        return self._edges_of(SimplexKind.SINGULAR)
-
-    @cached_property
-    def regular_edges(self) -> IntArray:
-        """Edges of exactly one triangle, ``(k, 2)`` int32, each ascending."""
-        return self._edges_of(SimplexKind.REGULAR)
-
-    @cached_property
-    def interior_edges(self) -> IntArray:
-        """Edges between two triangles, ``(k, 2)`` int32, each ascending."""
-        return self._edges_of(SimplexKind.INTERIOR)
-
-    def _edges_of(self, kind: SimplexKind) -> IntArray:
-        return chosen(self.filtration.simplices[1], self._edge_kinds == kind)
-
-    @cached_property
-    def boundary_edges(self) -> IntArray:
-        """Boundary of the triangles, ``(k, 2)`` int32: from, to, with the shape on the left.
-
-        These are the regular edges, in the same order. They run counter-clockwise around
-        the shape and clockwise around its holes.
-        """
-        return directed_boundary_edges(self.filtration, self._has_triangle, self._edge_kinds)
-
-    @cached_property
     def isolated_vertices(self) -> IntArray:
         """Vertices without any edge, ``(k,)`` int32."""
         return chosen(self._vertices, ~reached(self.filtration.joined_from, self.radius))
-
-    @cached_property
-    def singular_vertices(self) -> IntArray:
-        """Vertices in none of the triangles, ``(k,)`` int32; isolated ones among them."""
-        return chosen(self._vertices, self._vertex_kinds == SimplexKind.SINGULAR)
-
-    @cached_property
-    def regular_vertices(self) -> IntArray:
-        """Vertices on the boundary of the triangles, ``(k,)`` int32."""
-        return chosen(self._vertices, self._vertex_kinds == SimplexKind.REGULAR)
-
-    @cached_property
-    def interior_vertices(self) -> IntArray:
-        """Vertices with triangles all around them, ``(k,)`` int32."""
-        return chosen(self._vertices, self._vertex_kinds == SimplexKind.INTERIOR)
-
-    @property
-    def _vertices(self) -> IntArray:
-        return self.filtration.simplices[0][:, 0]
-
-    # How large
-
-    @cached_property
-    def area(self) -> float:
-        """Area of the triangles, in squared units of the points."""
-        with np.errstate(over="ignore"):
-            return float(self.filtration.triangle_areas.compress(self._has_triangle).sum())
-
-    @cached_property
-    def perimeter(self) -> float:
-        """Length of the boundary of the triangles, around the shape and its holes."""
-        return total_length(self.points, self.regular_edges)
-
-    @cached_property
-    def counts(self) -> dict[str, int]:
-        """Number of simplices of each kind, by name."""
-        singular, regular, interior = (
-            int(np.count_nonzero(self._edge_kinds == kind)) for kind in list(SimplexKind)[1:]
-        )
-        return {
-            "vertices": len(self._vertices),
-            "edges": singular + regular + interior,
-            "triangles": int(np.count_nonzero(self._has_triangle)),
-            "singular_edges": singular,
-            "regular_edges": regular,
-            "interior_edges": interior,
-            "isolated_vertices": len(self.isolated_vertices),
-        }
-
-    @property
-    def euler_characteristic(self) -> int:
-        """Vertices minus edges plus triangles: components minus holes of the complex."""
-        counts = self.counts
-        return counts["vertices"] - counts["edges"] + counts["triangles"]
-
-    # What to do with it
-
-    def mesh(self) -> Mesh:
-        """Return the complex as the mesh that is written to files.
-
-        Returns
-        -------
-        Mesh
-            The triangles, the singular edges as lines and the isolated vertices as
-            vertices, over all rows of `points`. The numbers ``"radius"`` of its cells
-            are their filtration values.
-        """
-        from alphamesh.io.meshes import Mesh
-
-        _, edge_radii, triangle_radii = self.filtration.radii
-        return Mesh(
-            self.points,
-            {
-                "vertex": self.isolated_vertices,
-                "line": self.singular_edges,
-                "triangle": self.triangles,
-            },
-            cell_data={
-                "radius": {
-                    "vertex": np.zeros(len(self.isolated_vertices)),
-                    "line": edge_radii.compress(self._edge_kinds == SimplexKind.SINGULAR),
-                    "triangle": triangle_radii.compress(self._has_triangle),
-                }
-            },
-        )
-
-    def save(
-        self,
-        path: str | os.PathLike[str],
-        *,
-        file_format: str | None = None,
-        keep_all: bool = False,
-    ) -> None:
-        """Write the complex to a mesh file, whole or not at all.
-
-        Vertices are written in the order of the points, with their rows in `points` as
-        the numbers ``"input_row"`` where the format holds numbers.
-
-        Parameters
-        ----------
-        path : path-like
-            An existing file is replaced once the new one is complete.
-        file_format : str, optional
-            A key of ``alphamesh.MESH_FORMATS``; by default the extension of `path`.
-        keep_all : bool, default False
-            Write duplicates, too, so that the rows of the file are those of `points`.
-
-        Raises
-        ------
-        FileWriteError
-            If it cannot be written, or the extension is unknown.
-        ParameterError
-            If `file_format` is unknown.
-        MissingLibraryError
-            If the format needs a library that is not installed.
-
-        Warns
-        -----
-        LossyFormatWarning
-            If the format leaves out singular edges or isolated vertices.
-        """
-        from alphamesh.io.meshes import write_mesh
-
-        write_mesh(self.mesh(), path, file_format=file_format, keep_all=keep_all)
-
-    def plot(self, ax: Axes | None = None) -> Drawing:
-        """Draw the complex on matplotlib axes, new ones if `ax` is None.
-
-        See :func:`alphamesh.plot.plot_complex`.
-        """
-        from alphamesh.plot import plot_complex
-
-        return plot_complex(self, ax)
 
     def __repr__(self) -> str:
         counts = self.counts

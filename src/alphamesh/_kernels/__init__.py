@@ -38,6 +38,7 @@ __all__ = [
     "persistence2",
     "resolve_threads",
     "self_test",
+    "triangle_edges2",
 ]
 
 Progress: TypeAlias = Callable[[float], object]
@@ -184,7 +185,7 @@ def dot2(corners: FloatArray) -> KindArray:
     return _core.dot2(np.ascontiguousarray(corners, dtype=np.float64))
 
 
-def persistence2(
+def persistence2(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
     points: FloatArray,
     triangles: IntArray,
     triangle_radii: FloatArray,
@@ -222,6 +223,33 @@ def persistence2(
     for array in pairs:
         array.setflags(write=False)
     return pairs
+
+
+def triangle_edges2(
+    points: FloatArray,
+    triangles: IntArray,
+    edges: IntArray,
+    edge_triangles: IntArray,
+    threads: int | None = None,
+) -> IntArray:
+    """Return the number of the edge opposite to each corner of each triangle.
+
+    Parameters
+    ----------
+    points : (n, 2) float64, C-contiguous
+    triangles : (T, 3) int32
+    edges : (E, 2) int32
+    edge_triangles : (E, 2) int32
+    threads : int, optional
+
+    Returns
+    -------
+    (T, 3) int32
+    """
+    threads = resolve_threads(threads)
+    sides = _core.triangle_edges2(points, triangles, edges, edge_triangles, threads)
+    sides.setflags(write=False)
+    return sides
 
 
 def self_test() -> str:

@@ -40,6 +40,88 @@ def persistence2(
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
+def triangle_edges2(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    edge_triangles: NDArray[np.int32],
+    threads: int,
+) -> NDArray[np.int32]: ...
+def rings2(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    edge_triangles: NDArray[np.int32],
+    threads: int,
+) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.int32]]: ...
+def voronoi_vertices2(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    edge_triangles: NDArray[np.int32],
+    threads: int,
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]: ...
+def restricted2(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    has_triangle: NDArray[np.bool_],
+    edges: NDArray[np.int32],
+    has_edge: NDArray[np.bool_],
+    edge_triangles: NDArray[np.int32],
+    active: NDArray[np.bool_],
+    radius: float,
+    threads: int,
+    progress: Callable[[float], object] | None,
+) -> tuple[
+    NDArray[np.int64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+]: ...
+def hull2(points: NDArray[np.float64], collinear: bool, threads: int) -> NDArray[np.int32]: ...
+def locate2(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    neighbors: NDArray[np.int32],
+    queries: NDArray[np.float64],
+    threads: int,
+) -> NDArray[np.int32]: ...
+def parts2(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    edge_triangles: NDArray[np.int32],
+    inside: NDArray[np.bool_],
+) -> NDArray[np.int32]: ...
+def outlines2(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    edge_triangles: NDArray[np.int32],
+    region: NDArray[np.int32],
+    threads: int,
+) -> tuple[
+    NDArray[np.int64],
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.bool_],
+]: ...
+def segment_tree2(
+    points: NDArray[np.float64], edges: NDArray[np.int32], threads: int
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]: ...
+def nearest2(
+    segments: NDArray[np.float64],
+    place: NDArray[np.int32],
+    boxes: NDArray[np.float64],
+    queries: NDArray[np.float64],
+    threads: int,
+    progress: Callable[[float], object] | None,
+) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64]]: ...
 def orient2(corners: NDArray[np.float64]) -> NDArray[np.int8]: ...
 def incircle2(corners: NDArray[np.float64], perturb: bool) -> NDArray[np.int8]: ...
 def dot2(corners: NDArray[np.float64]) -> NDArray[np.int8]: ...

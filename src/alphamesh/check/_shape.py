@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -136,17 +135,26 @@ def _check_measures(shape: AlphaShape) -> None:
     doubt = _MEASURE_ERROR * float((np.abs(left) + np.abs(right)).sum())
     steps = points[shape.boundary_edges[:, 1]] - points[shape.boundary_edges[:, 0]]
     length = float(np.hypot(steps[:, 0], steps[:, 1]).sum())
-    area = float((left - right).sum())
-    _require_close(shape.area, area / 2, doubt, 2 * exponent, "area")
-    _require_close(shape.perimeter, length, _MEASURE_ERROR * length, exponent, "perimeter")
+    area = float((left - right).sum()) / 2
+    _require_close(shape.area, (area, doubt), 2 * exponent, len(u), "area")
+    doubt = _MEASURE_ERROR * length
+    _require_close(shape.perimeter, (length, doubt), exponent, len(steps), "perimeter")
 
 
-def _require_close(value: float, unit: float, doubt: float, exponent: int, name: str) -> None:
-    """Raise unless `value` is about ``unit * 2**exponent``, both perhaps out of range."""
+def _require_close(
+    value: float, expected: tuple[float, float], exponent: int, count: int, name: str
+) -> None:
+    """Raise unless `value` is near the sum of `count` parts.
+
+    The sum and its doubt come in units of ``2**exponent``, in which either may leave the
+    range of floats; among subnormal numbers each part may have been rounded by a step.
+    """
+    middle, doubt = expected
     with np.errstate(all="ignore"):
-        low, expected, high = np.ldexp([unit - doubt, unit, unit + doubt], exponent)
-    if not low <= value <= high and not math.isclose(value, expected, abs_tol=5e-324):
-        raise InvalidResultError(f"{name}: {value}, but the parts sum up to {expected}")
+        low, total, high = np.ldexp([middle - doubt, middle, middle + doubt], exponent)
+    step = count * 5e-324
+    if not low - step <= value <= high + step:
+        raise InvalidResultError(f"{name}: {value}, but the parts sum up to {total}")
 
 
 # ---------------------------------------------------------------------- parts
