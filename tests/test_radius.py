@@ -11,6 +11,7 @@ from hypothesis import given
 import alphamesh as am
 from alphamesh import radius as rules
 from alphamesh.errors import EmptyCloudError, ParameterError
+from alphamesh.radius import _registry
 from complexes import complexes
 
 RNG = np.random.default_rng(3)
@@ -18,7 +19,7 @@ RNG = np.random.default_rng(3)
 
 @given(complexes().filter(lambda cx: len(cx.points)))
 def test_all_points_is_the_smallest_radius_that_leaves_none_out(cx):
-    choice = cx.choose_radius()
+    choice = cx.choose_radius("all-points")
     assert choice == am.choose_radius(cx.filtration, "all-points")
     assert choice.rule == "all-points"
     left_out = {2: "singular_vertices", 1: "isolated_vertices", 0: "interior_vertices"}
@@ -38,11 +39,13 @@ def test_all_points_against_a_plain_loop():
     for triangle, radius in zip(cx.simplices[2].tolist(), cx.radii[2].tolist(), strict=True):
         for vertex in triangle:
             least[vertex] = min(least.get(vertex, math.inf), radius)
-    assert cx.choose_radius().radius == max(least.values())
+    assert cx.choose_radius("all-points").radius == max(least.values())
 
 
 def test_the_reason_names_the_point_that_decides():
-    choice = am.AlphaComplex([[0, 0], [2, 0], [0, 2], [2, 2], [9, 1]]).choose_radius()
+    choice = am.AlphaComplex([[0, 0], [2, 0], [0, 2], [2, 2], [9, 1]]).choose_radius(
+        "all-points"
+    )
     assert choice.radius == pytest.approx(50 / 14, rel=1e-15)
     assert "each of the 5 points is a corner of a triangle" in choice.reason
     assert "row 4 at (9, 1)" in choice.reason
@@ -51,19 +54,25 @@ def test_the_reason_names_the_point_that_decides():
 
 def test_the_reason_counts_distinct_points():
     points = np.repeat([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], 2, axis=0)
-    assert "each of the 3 points" in am.AlphaComplex(points).choose_radius().reason
+    assert "each of the 3 points" in am.AlphaComplex(points).choose_radius("all-points").reason
 
 
 def test_points_on_a_line_are_joined_by_edges():
-    choice = am.AlphaComplex([[0, 0], [1, 1], [4, 4], [5, 5], [11, 11]]).choose_radius()
+    choice = am.AlphaComplex([[0, 0], [1, 1], [4, 4], [5, 5], [11, 11]]).choose_radius(
+        "all-points"
+    )
     assert choice.radius == pytest.approx(3 * math.sqrt(2), rel=1e-15)
     assert "on one line" in choice.reason and "row 4 at (11, 11)" in choice.reason
 
 
 @pytest.mark.parametrize("points", [[[3, 4]], [[3, 4]] * 9])
-def test_one_place_needs_no_radius(points):
-    choice = am.AlphaComplex(points).choose_radius()
+@pytest.mark.parametrize(
+    "rule", [rule for rule in rules.rule_names() if rule != "triangle-count"]
+)
+def test_one_place_needs_no_radius(points, rule):
+    choice = am.AlphaComplex(points).choose_radius(rule)
     assert choice.radius == 0.0 and "at one place" in choice.reason
+    assert choice.betti == (1, 0)
 
 
 def test_no_points_no_radius():
@@ -78,7 +87,7 @@ def test_no_points_no_radius():
     ("rule", "hint"),
     [
         ("all_points", "did you mean 'all-points'"),
-        ("one-region", "rules: 'all-points'"),
+        ("largest", "rules: 'topology', 'all-points'"),
         (3, "3"),
     ],
 )
@@ -94,13 +103,13 @@ def test_points_are_not_a_filtration():
 
 
 def test_a_rule_can_be_added(monkeypatch):
-    monkeypatch.setattr(rules, "_RULES", dict(rules._RULES))
+    monkeypatch.setattr(_registry, "_RULES", dict(_registry._RULES))
 
     @rules.radius_rule("a-half")
     def a_half(filtration):
         return am.RadiusChoice(0.5, "a-half", f"Half, for {len(filtration.points)} points.")
 
-    assert rules.rule_names() == ("all-points", "a-half")
+    assert rules.rule_names()[:3] == ("topology", "a-half", "all-points")
     choice = am.AlphaComplex([[0, 0], [1, 0], [0, 1]]).choose_radius("a-half")
     assert choice.radius == 0.5 and choice.reason == "Half, for 3 points."
     with pytest.raises(ParameterError, match="already"):
@@ -111,3 +120,59 @@ def test_a_choice_cannot_change():
     choice = am.RadiusChoice(1.0, "rule", "reason")
     with pytest.raises(AttributeError):
         choice.radius = 2.0
+
+
+@pytest.mark.parametrize("name", am.DEMO_SHAPES)
+def test_topology_finds_the_shape_or_says_that_it_is_unsure(name):
+    cx = am.AlphaComplex(am.demo_cloud(name, 5000, seed=1))
+    choice = cx.choose_radius()
+    assert choice.rule == "topology"
+    assert choice.betti == am.DEMO_SHAPES[name].betti or not choice.clear
+    low, high = choice.interval
+    assert low <= choice.radius < high
+    for radius in (low, choice.radius, math.nextafter(high, 0)):
+        assert tuple(cx.persistence().betti_numbers(radius).tolist()) == choice.betti
+
+
+@given(complexes().filter(lambda cx: len(cx.points)))
+def test_topology_keeps_its_word(cx):
+    choice = cx.choose_radius()
+    low, high = choice.interval
+    assert low <= choice.radius < high or cx.dimension == 0
+    assert tuple(cx.persistence().betti_numbers(choice.radius).tolist()) == choice.betti
+    assert 0.0 <= (choice.confidence or 0.0) <= 1.0
+    for rival in choice.runners_up:
+        assert rival.betti != choice.betti
+        assert tuple(cx.persistence().betti_numbers(rival.low).tolist()) == rival.betti
+
+
+def test_topology_does_as_it_is_told():
+    cx = am.AlphaComplex(am.demo_cloud("eight", 3000, seed=4))
+    assert cx.choose_radius(holes=1).betti[1] == 1
+    assert cx.choose_radius(components=1, holes=2) == cx.choose_radius(betti=(1, 2))
+    largest = cx.persistence().diagram(1)[:, 1].max()
+    assert cx.choose_radius(min_hole=0.99 * largest).betti == (1, 1)
+    with pytest.raises(ParameterError, match="no radius gives 1 components and 5000 holes"):
+        cx.choose_radius(betti=(1, 5000))
+    with pytest.raises(ParameterError, match="not both"):
+        cx.choose_radius(betti=(1, 2), holes=2)
+    with pytest.raises(ParameterError, match="has no option 'hole'; its options: betti"):
+        cx.choose_radius(hole=2)
+
+
+def test_topology_says_when_the_cloud_gives_no_clear_answer():
+    choice = am.AlphaComplex(am.demo_cloud("letter-b", 5000, seed=1)).choose_radius()
+    assert choice.confidence < 0.5 and not choice.clear and "no clear answer" in choice.reason
+
+
+def test_regions_and_counts():
+    cx = am.AlphaComplex(am.demo_cloud("islands", 2000, seed=4))
+    one, five = cx.choose_radius("one-region"), cx.choose_radius("regions", regions=5)
+    assert five.radius < one.radius and one.betti[0] == 1
+    assert cx.at(five.radius).isolated_vertices.size == 0
+    many = cx.choose_radius("triangle-count", triangles=3000)
+    assert len(cx.at(many.radius).triangles) >= 3000
+    assert len(cx.at(math.nextafter(many.radius, 0)).triangles) < 3000
+    widest = cx.choose_radius("longest-interval")
+    radii, _ = cx.persistence().betti_curve()
+    assert widest.interval[1] - widest.interval[0] == pytest.approx(np.diff(radii).max())

@@ -1,0 +1,24 @@
+"""Rules that choose a radius, each with its reason: one small module per rule."""
+
+from __future__ import annotations
+
+from alphamesh.radius import (
+    _all_points,
+    _longest_interval,
+    _regions,
+    _topology,
+    _triangle_count,
+)
+from alphamesh.radius._choice import RadiusChoice, RadiusInterval
+from alphamesh.radius._registry import DEFAULT_RULE, choose_radius, radius_rule, rule_names
+
+__all__ = [
+    "DEFAULT_RULE",
+    "RadiusChoice",
+    "RadiusInterval",
+    "choose_radius",
+    "radius_rule",
+    "rule_names",
+]
+
+_RULE_MODULES = (_all_points, _longest_interval, _regions, _topology, _triangle_count)

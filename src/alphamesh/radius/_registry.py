@@ -1,0 +1,137 @@
+"""The rules by name."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from alphamesh.errors import EmptyCloudError, ParameterError
+from alphamesh.filtration import Filtration
+from alphamesh.persistence import persistence
+from alphamesh.radius._choice import RadiusChoice
+
+__all__ = ["DEFAULT_RULE", "choose_radius", "radius_rule", "rule_names"]
+
+DEFAULT_RULE = "topology"
+
+Rule: TypeAlias = Callable[..., RadiusChoice]
+
+_RULES: dict[str, Rule] = {}
+
+
+def radius_rule(name: str) -> Callable[[Rule], Rule]:
+    """Return a decorator that makes a function known as the rule `name`.
+
+    The function takes a :class:`~alphamesh.filtration.Filtration` of at least one point,
+    and its own options as keywords, and returns a :class:`RadiusChoice`. What it leaves
+    out of `interval` and `betti` is filled in.
+    """
+
+    def register(rule: Rule) -> Rule:
+        if name in _RULES:
+            raise ParameterError(f"there is a radius rule {name!r} already")
+        _RULES[name] = rule
+        return rule
+
+    return register
+
+
+def rule_names() -> tuple[str, ...]:
+    """Return the names of all rules, the default first."""
+    return tuple(sorted(_RULES, key=lambda name: (name != DEFAULT_RULE, name)))
+
+
+def choose_radius(
+    filtration: Filtration, rule: str = DEFAULT_RULE, **options: Any
+) -> RadiusChoice:
+    """Choose a radius for a filtration, and say why.
+
+    Parameters
+    ----------
+    filtration : Filtration
+        From :func:`alphamesh.filtration.filtration`, or ``AlphaComplex.filtration``.
+    rule : str
+        ``"topology"``: where the noise of sampling has died out while the holes and gaps
+        of the shape stand. Options, for those who know: ``betti=(b0, b1)``,
+        ``components=b0``, ``holes=b1`` and ``min_hole=radius``.
+
+        ``"all-points"``: the smallest radius at which every point is a corner of some
+        triangle. Known from ``criticalAlpha(shp, "all-points")`` in MATLAB and
+        ``optimal_alpha`` in shull.
+
+        ``"regions"``: the smallest such radius at which the triangles also form at most
+        ``regions=k`` pieces. Known from ``find_optimal_alpha(k)`` in CGAL and
+        ``CG_OptimalAlphaShape`` in PostGIS.
+
+        ``"one-region"``: the same for one piece. Known from
+        ``criticalAlpha(shp, "one-region")`` in MATLAB.
+
+        ``"longest-interval"``: the middle of the widest range of radii over which the
+        numbers of components and holes do not change.
+
+        ``"triangle-count"``: the smallest radius that gives at least ``triangles=k``
+        triangles.
+    **options
+        Options of the rule.
+
+    Returns
+    -------
+    RadiusChoice
+
+    Raises
+    ------
+    EmptyCloudError
+        If the cloud has no points.
+    ParameterError
+        If there is no such rule or option, with a list of those that there are, or an
+        option cannot be met.
+    """
+    given: Any = filtration
+    if not isinstance(given, Filtration):
+        raise ParameterError(
+            f"choose_radius needs a filtration, not {type(given).__name__}; "
+            "make one with alphamesh.filtration(points), or use AlphaComplex.choose_radius()"
+        )
+    chosen = _RULES.get(rule)
+    if chosen is None:
+        raise _unknown_rule(rule)
+    _refuse_unknown_options(rule, chosen, options)
+    if len(filtration.points) == 0:
+        raise EmptyCloudError(
+            "a cloud without points has no radius to choose; "
+            "check where the points should have come from"
+        )
+    return _completed(filtration, chosen(filtration, **options))
+
+
+def _completed(filtration: Filtration, choice: RadiusChoice) -> RadiusChoice:
+    """Return `choice` with the Betti numbers at its radius and where they hold."""
+    if choice.interval is not None and choice.betti is not None:
+        return choice
+    radii, numbers = persistence(filtration).betti_curve()
+    step = int(np.searchsorted(radii, choice.radius, side="right")) - 1
+    high = float(radii[step + 1]) if step + 1 < len(radii) else float("inf")
+    b0, b1 = numbers[step].tolist()
+    return replace(choice, interval=(float(radii[step]), high), betti=(b0, b1))
+
+
+def _unknown_rule(rule: Any) -> ParameterError:
+    names = ", ".join(repr(name) for name in rule_names())
+    close = difflib.get_close_matches(str(rule), list(_RULES), n=1)
+    guess = f"did you mean {close[0]!r}? " if close else ""
+    return ParameterError(f"there is no radius rule {rule!r}; {guess}rules: {names}")
+
+
+def _refuse_unknown_options(name: str, rule: Rule, options: dict[str, Any]) -> None:
+    known = list(inspect.signature(rule).parameters)[1:]
+    unknown = [option for option in options if option not in known]
+    if unknown:
+        listed = ", ".join(known) or "none"
+        raise ParameterError(
+            f"the radius rule {name!r} has no option {unknown[0]!r}; its options: {listed}"
+        )
