@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from alphamesh._kernels import _core, resolve_threads
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray
 
-__all__ = ["SegmentTree", "nearest2", "outlines2", "parts2", "segment_tree2"]
+__all__ = ["SegmentTree", "connected", "nearest2", "outlines2", "parts2", "segment_tree2"]
 
 SegmentTree = tuple["FloatArray", "IntArray", "FloatArray"]
 
@@ -46,6 +48,27 @@ def parts2(
     parts = _core.parts2(points, triangles, edges, edge_triangles, inside)
     parts.setflags(write=False)
     return parts
+
+
+def connected(count: int, links: IntArray) -> IntArray:
+    """Return numbers of the connected parts of a graph.
+
+    Parameters
+    ----------
+    count : int
+        How many nodes it has.
+    links : (k, 2) int32, C-contiguous
+        Nodes that belong together.
+
+    Returns
+    -------
+    (count,) int32
+        0, 1, ... in the order of the first node of each part.
+    """
+    # Triangles whose corners nobody looks at, linked by edges.
+    nowhere = np.empty((0, 2))
+    nodes = np.broadcast_to(np.int32(0), (count, 3)).copy()
+    return parts2(nowhere, nodes, links, links, np.ones(count, dtype=np.bool_))
 
 
 def outlines2(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)

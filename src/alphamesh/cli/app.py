@@ -22,6 +22,7 @@ _COMMANDS = {
     "persistence": "tell when components and holes come and go",
     "voronoi": "find Voronoi cells, whole or cut by discs",
     "delaunay": "triangulate, with a frame around the cloud or without",
+    "tiles": "build a complex larger than memory, tile by tile",
 }
 
 _EXAMPLES = (

@@ -1,0 +1,191 @@
+"""``alphamesh tiles``: complexes larger than memory, tile by tile."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from alphamesh.cli.command import Command, json_option, quiet_option
+from alphamesh.cli.outputs import Output, Outputs, check_targets, write_bytes
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import counted, number, print_json, print_lines, size_text
+from alphamesh.cli.types import AUTO
+
+if TYPE_CHECKING:
+    from alphamesh.tiles import Summary, TiledComplex
+
+__all__ = ["command"]
+
+_EXAMPLES = (
+    "alphamesh tiles run lidar/ --radius 2.5 -o tiles",
+    "alphamesh tiles run points.parquet --radius auto --workers 4 -o tiles",
+    "alphamesh tiles run lidar/ --radius 2.5 --cluster tcp://head:8786 -o tiles",
+)
+_folder = click.argument("folder", type=click.Path(path_type=Path))
+
+
+@click.group("tiles")
+def command() -> None:
+    """Build a complex larger than memory, tile by tile.
+
+    The result is that of the cloud as a whole, bit for bit: Parquet datasets of
+    vertices, edges and triangles in a folder. A run that was stopped goes on
+    where it was when it is started again.
+    """
+
+
+@command.command("run", cls=Command, examples=_EXAMPLES)
+@click.argument("data")
+@click.option(
+    "-o", "--output", "folder", required=True, type=click.Path(path_type=Path),
+    help="The folder for the result.",
+)  # fmt: skip
+@click.option(
+    "-r", "--radius", required=True,
+    help="Radius in the units of the points, or auto: chosen by topology in sampled tiles.",
+)  # fmt: skip
+@click.option("--columns", metavar="X,Y", help="The columns that hold the coordinates.")
+@click.option(
+    "--tile-points", type=click.IntRange(1), default=500_000, show_default=True, metavar="N",
+    help="About how many points a tile shall have.",
+)  # fmt: skip
+@click.option(
+    "--workers", type=click.IntRange(1), metavar="N",
+    help="Work with N processes of this machine.  [default: in this process]",
+)  # fmt: skip
+@click.option("--cluster", metavar="ADDRESS", help="Work on this Dask cluster.")
+@click.option("--overwrite", is_flag=True, help="Replace another run in the folder.")
+@json_option
+@quiet_option
+def _run(  # noqa: PLR0913, PLR0917 (one option each)
+    data: str,
+    folder: Path,
+    radius: str,
+    columns: str | None,
+    tile_points: int,
+    workers: int | None,
+    cluster: str | None,
+    overwrite: bool,
+    as_json: bool,
+    quiet: bool,
+) -> None:
+    """Compute the complex of DATA up to a radius.
+
+    DATA is an NPY, Parquet, LAS or LAZ file, or a folder of such files.
+    """
+    from alphamesh.tiles import choose_radius, dataset, run
+
+    if workers is not None and cluster is not None:
+        raise click.UsageError("give either --workers or --cluster, not both")
+    with Steps(quiet=quiet) as steps:
+        found = dataset(data, columns=columns)
+        reason = "Given on the command line."
+        if radius == AUTO:
+            with steps.step("Choosing the radius"):
+                choice = choose_radius(found)
+            wanted, reason = choice.radius, choice.reason
+        else:
+            wanted = _number(radius)
+        with steps.step(f"Building tiles of {counted(found.count, 'point')}") as done:
+            result = run(
+                found, wanted, folder, tile_points=tile_points, overwrite=overwrite,
+                cluster="local" if workers else cluster, processes=workers, progress=done,
+            )  # fmt: skip
+    _tell(result, as_json, {"reason": reason})
+
+
+def _number(radius: str) -> float:
+    try:
+        return float(radius)
+    except ValueError:
+        raise click.UsageError(f"--radius {radius!r} is neither a number nor auto") from None
+
+
+@command.command("status", cls=Command)
+@_folder
+@json_option
+def _status(folder: Path, as_json: bool) -> None:
+    """Tell how far the run in FOLDER has come."""
+    from alphamesh.tiles import status
+
+    found = status(folder)
+    if as_json:
+        print_json(asdict(found))
+        return
+    tiles = "not yet divided" if found.tiles is None else f"{found.tiles_done} of {found.tiles}"
+    print_lines(
+        {
+            "Points": f"{found.points:,}",
+            "Radius": number(found.radius),
+            "Chunks sorted": f"{found.chunks_done} of {found.chunks}",
+            "Tiles done": tiles,
+            "Finished": "yes" if found.finished else "no; run it again to go on",
+        }
+    )
+
+
+@command.command("merge", cls=Command)
+@_folder
+@click.option(
+    "-o", "--output", type=click.Path(path_type=Path), metavar="FILE.geojson",
+    help="Write the regions of the whole as polygons.",
+)  # fmt: skip
+@json_option
+@quiet_option
+def _merge(folder: Path, output: Path | None, as_json: bool, quiet: bool) -> None:
+    """Tell of the whole complex in FOLDER; write its outline."""
+    from alphamesh.tiles import TiledComplex
+
+    check_targets([output] if output else [])
+    result = TiledComplex(folder)
+    outputs = Outputs()
+    if output is not None:
+        with Steps(quiet=quiet) as steps:
+            outputs.write([Output(output, lambda path: _write_polygons(result, path))], steps)
+    files = [{"path": path, "bytes": size} for path, size in outputs.sizes().items()]
+    _tell(result, as_json, {"files": files})
+    outputs.raise_failures()
+
+
+def _write_polygons(result: TiledComplex, path: Path) -> None:
+    """Write a GeoJSON feature for each region, whole or not at all."""
+    import shapely
+
+    areas = result.region_areas.tolist()
+    features = [
+        {"type": "Feature", "properties": {"region": k, "area": area}, "geometry": shape}
+        for k, (area, shape) in enumerate(
+            zip(areas, map(json.loads, shapely.to_geojson(result.polygons())), strict=True)
+        )
+    ]
+    content = {"type": "FeatureCollection", "features": features}
+    write_bytes(json.dumps(content).encode(), path)
+
+
+def _tell(result: TiledComplex, as_json: bool, more: dict[str, Any]) -> None:
+    facts: Summary = result.summary
+    if as_json:
+        numbers = asdict(facts) | {"tiles": len(result.tiling), "folder": str(result.folder)}
+        print_json(numbers | more)
+        return
+    lines = {
+        "Folder": f"{result.folder}  ({counted(len(result.tiling), 'tile')})",
+        "Points": f"{facts.points:,}",
+        "Radius": number(facts.radius),
+        "": more.get("reason", ""),
+        "Complex": f"{facts.vertices:,} vertices, {facts.edges:,} edges, "
+        f"{facts.triangles:,} triangles",
+        "Shape": f"{counted(facts.betti[0], 'component')}, {counted(facts.betti[1], 'hole')}, "
+        f"{counted(facts.regions, 'region')}",
+        "Area": number(facts.area),
+        "Perimeter": number(facts.perimeter),
+    }
+    if more.get("files"):
+        lines["Written"] = "\n".join(
+            f"{file['path']}  ({size_text(file['bytes'])})" for file in more["files"]
+        )
+    print_lines({key: text for key, text in lines.items() if text})

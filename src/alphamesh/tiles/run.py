@@ -1,0 +1,216 @@
+"""From a cloud on disk to its alpha complex on disk, tile by tile."""
+
+from __future__ import annotations
+
+import math
+import os
+import shutil
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from alphamesh.errors import ParameterError
+from alphamesh.tiles.complex import TiledComplex
+from alphamesh.tiles.dataset import Chunk, Dataset
+from alphamesh.tiles.merge import merge
+from alphamesh.tiles.pieces import solve
+from alphamesh.tiles.store import Store
+from alphamesh.tiles.tiling import plan
+from alphamesh.tiles.workers import Workers, workers_of
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import FloatArray
+
+__all__ = ["run"]
+
+_TILE_POINTS = 500_000
+_SAMPLE = 500_000
+# Shares of the work, for progress.
+_SURVEYED, _SCATTERED, _SOLVED = 0.05, 0.25, 0.98
+
+Progress = Callable[[float], object]
+
+
+def run(  # noqa: PLR0913 (each is a choice of the user's)
+    data: Dataset,
+    radius: float,
+    folder: str | os.PathLike[str],
+    *,
+    tile_points: int = _TILE_POINTS,
+    cluster: Any = None,
+    processes: int | None = None,
+    overwrite: bool = False,
+    keep_chunks: bool = False,
+    progress: Progress | None = None,
+) -> TiledComplex:
+    """Compute the alpha complex of a cloud on disk up to a radius, and keep it on disk.
+
+    The result is that of the cloud as a whole, bit for bit; no more than a tile with its
+    halo has to fit in the memory of a worker. A run that was stopped goes on where it
+    was: finished tiles whose checksums are right are not computed again.
+
+    Parameters
+    ----------
+    data : Dataset
+        See :func:`dataset`. Files must be within reach of all workers.
+    radius : float
+        Not negative, finite. Tiles need a halo of twice this width: many times the
+        distance between points is slow.
+    folder : path-like
+        For the result; made if it is not there. Within reach of all workers.
+    tile_points : int
+        About how many points a tile shall have; it takes some 500 bytes of memory each.
+    cluster : None, "local", str or distributed.Client
+        Who works: this process, processes of its own on this machine, or the Dask
+        cluster of this address or client.
+    processes : int, optional
+        How many for "local"; by default one for each CPU.
+    overwrite : bool
+        Delete another run's result in the folder.
+    keep_chunks : bool
+        Keep the points that were sorted into tiles once all is done.
+    progress : callable, optional
+        Called with the fraction that is done.
+
+    Returns
+    -------
+    TiledComplex
+
+    Raises
+    ------
+    ParameterError
+        If `radius` or `tile_points` is not what it must be, or the folder holds
+        something else.
+    FileReadError, FileWriteError, NonFiniteError
+        If the data cannot be read, or the result not be written.
+    """
+    radius = _checked_radius(radius)
+    if tile_points < 1:
+        raise ParameterError(f"tile_points must be at least 1; got {tile_points!r}")
+    store = Store(Path(folder).absolute())
+    _begin(store, data, radius, int(tile_points), overwrite=overwrite)
+    told = _unheard if progress is None else progress
+    with workers_of(cluster, processes) as workers:
+        _plan(store, data, int(tile_points), workers, told)
+        tiles = _solve(store, data, radius, workers, told)
+    parts = [store.part(tile)[0] for tile in range(tiles)]
+    store.write_summary(merge(parts, radius)[0])
+    if not keep_chunks:
+        store.drop_chunks()
+    told(1.0)
+    return TiledComplex(store.folder)
+
+
+def _unheard(fraction: float) -> None:
+    """Take no notice."""
+
+
+def _checked_radius(radius: Any) -> float:
+    try:
+        value = float(radius)
+    except (TypeError, ValueError):
+        value = math.nan
+    if not 0 <= value < math.inf:
+        raise ParameterError(f"radius must be a number, 0 or more and finite; got {radius!r}")
+    return value
+
+
+def _begin(
+    store: Store, data: Dataset, radius: float, tile_points: int, *, overwrite: bool
+) -> None:
+    """Make sure that the folder is empty, or holds the beginning of this very run."""
+    wanted = {
+        "format": 1,
+        "data": data.digest,
+        "points": data.count,
+        "chunks": len(data.chunks),
+        "radius": radius,
+        "tile_points": tile_points,
+    }
+    known = store.manifest()
+    if known == wanted:
+        return
+    if store.folder.exists() and any(store.folder.iterdir()):
+        if known is None:
+            raise ParameterError(
+                f"{store.folder} holds other files; choose an empty folder or a new one"
+            )
+        if not overwrite:
+            different = ", ".join(key for key in wanted if known.get(key) != wanted[key])
+            raise ParameterError(
+                f"{store.folder} holds another run (different: {different}); choose another "
+                "folder, or replace it with overwrite=True"
+            )
+        shutil.rmtree(store.folder)
+    store.write_manifest(wanted)
+
+
+def _plan(
+    store: Store, data: Dataset, tile_points: int, workers: Workers, told: Progress
+) -> None:
+    if store.plan() is not None:
+        return
+    share = min(1.0, _SAMPLE / max(data.count, 1))
+    done = workers.each(partial(_sample, share=share), data.chunks)
+    samples = dict(_counted(done, len(data.chunks), told, 0.0, _SURVEYED))
+    sample = np.concatenate([np.empty((0, 2)), *(samples[k] for k in sorted(samples))])
+    store.write_plan(plan(sample, max(1, math.ceil(data.count / tile_points))))
+
+
+def _solve(store: Store, data: Dataset, radius: float, workers: Workers, told: Progress) -> int:
+    tiling = store.plan()
+    assert tiling is not None
+    tiles = [tile for tile in range(len(tiling)) if not store.has_tile(tile)]
+    if tiles:
+        chunks = [chunk for chunk in data.chunks if not store.has_chunk(chunk.number)]
+        spread = partial(_scatter, folder=store.folder, radius=radius)
+        for _ in _counted(
+            workers.each(spread, chunks), len(chunks), told, _SURVEYED, _SCATTERED
+        ):
+            pass
+    work = partial(_solve_tile, folder=store.folder, chunks=len(data.chunks), radius=radius)
+    for _ in _counted(workers.each(work, tiles), len(tiles), told, _SCATTERED, _SOLVED):
+        pass
+    return len(tiling)
+
+
+def _counted(
+    results: Iterable[Any], total: int, told: Progress, start: float, end: float
+) -> Iterator[Any]:
+    for number, result in enumerate(results, start=1):
+        told(start + (end - start) * number / total)
+        yield result
+
+
+# ------------------------------------------------------- tasks, one process each
+
+
+def _sample(chunk: Chunk, share: float) -> tuple[int, FloatArray]:
+    """Return some points of a chunk, the same ones each time."""
+    points = chunk.read()
+    wanted = min(len(points), math.ceil(len(points) * share))
+    chosen = np.random.default_rng(chunk.number).choice(len(points), wanted, replace=False)
+    return chunk.number, points.take(np.sort(chosen), axis=0)
+
+
+def _scatter(chunk: Chunk, folder: Path, radius: float) -> None:
+    """Sort the points of a chunk into tiles and their halos."""
+    store = Store(folder)
+    tiling = store.plan()
+    assert tiling is not None
+    points = chunk.read()
+    offsets, rows = tiling.with_halo(points, radius)
+    store.write_chunk(chunk.number, offsets, rows + chunk.first_row, points.take(rows, axis=0))
+
+
+def _solve_tile(tile: int, folder: Path, chunks: int, radius: float) -> int:
+    """Compute and keep what a tile owns."""
+    store = Store(folder)
+    tiling = store.plan()
+    assert tiling is not None
+    rows, points = store.points_of(tile, chunks)
+    store.write_tile(solve(tiling, tile, rows, points, radius))
+    return tile
