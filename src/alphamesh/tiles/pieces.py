@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
-from alphamesh.boundary import directed_boundary_edges
+from alphamesh._kernels import orient2
 from alphamesh.classify import SimplexKind
 from alphamesh.filtration import Filtration, filtration
-from alphamesh.measures import total_length
+from alphamesh.measures import scaled_points, total_length
 from alphamesh.tiles.labels import Border, border_of
 from alphamesh.tiles.tiling import Tiling, halo_width
 
@@ -126,7 +126,7 @@ def solve(  # noqa: PLR0913 (a tile, its points and the radius)
     """
     found = filtration(points, threads=threads)
     share = _Share(found, tiling, tile, radius)
-    boundary_edges, cells = share.boundary()
+    triples, cells = share.boundary()
     components = share.components(rows)
     region_labels, regions = share.regions(rows)
     local = np.flatnonzero(share.inside)
@@ -144,8 +144,13 @@ def solve(  # noqa: PLR0913 (a tile, its points and the radius)
             for radii, kept in zip(found.radii, share.mine, strict=True)
         ),
         share.edge_kinds,
-        _boundary(found, rows, boundary_edges, cells, region_labels),
-        total_length(found.points, boundary_edges),
+        Boundary(
+            read_only(rows.take(triples[:, :2])),
+            read_only(rows.take(triples[:, 2])),
+            read_only(found.points.take(triples, axis=0)),
+            read_only(region_labels.take(cells)),
+        ),
+        total_length(found.points, triples[:, :2]),
         share.region_areas(region_labels, regions.count),
         components,
         regions,
@@ -175,14 +180,25 @@ class _Share:
         self.edge_kinds: KindArray = read_only(kinds.astype(np.int8))
 
     def boundary(self) -> tuple[IntArray, CountArray]:
-        """Return the tile's boundary edges, the shape on their left, and their triangles."""
-        kinds = np.zeros(len(self.found.simplices[1]), dtype=np.int8)
-        kinds[self.mine[1]] = self.edge_kinds
-        edges = directed_boundary_edges(self.found, self.has_triangle[:-1], kinds)
+        """Return the tile's boundary, and the triangle at each edge.
+
+        The boundary is ``(b, 3)``: from, to, with the shape on the left, and the third
+        corner of the triangle there.
+        """
         regular = self.edge_kinds == SimplexKind.REGULAR
-        first = self.coface_there[:, 0].compress(regular)
-        cofaces = self.cofaces.compress(regular, axis=0)
-        return edges, np.where(first, cofaces[:, 0], cofaces[:, 1]).astype(np.int64)
+        there, cofaces = (
+            array.compress(regular, axis=0) for array in (self.coface_there, self.cofaces)
+        )
+        cells = np.where(there[:, 0], cofaces[:, 0], cofaces[:, 1]).astype(np.int64)
+        edges = self.found.simplices[1].take(self.mine[1].compress(regular), axis=0)
+        # The corner that is neither end; rows are small enough for their sums.
+        corners = self.found.simplices[2].take(cells, axis=0)
+        apexes = corners.sum(axis=1, dtype=np.int64) - edges.sum(axis=1, dtype=np.int64)
+        triples = np.column_stack((edges, apexes)).astype(np.int32)
+        points, _ = scaled_points(self.found.points)
+        right = orient2(points.take(triples, axis=0)) < 0
+        triples[right, :2] = triples[right, 1::-1]
+        return triples, cells
 
     def components(self, rows: CountArray) -> Border:
         """Divide the vertices that the tile knows by its edges."""
@@ -222,14 +238,16 @@ class _Share:
 
 def _first(points: FloatArray, simplices: IntArray) -> IntArray:
     """Return the lexicographically first vertex of each simplex."""
-    first = simplices[:, 0].copy()
+    x = np.ascontiguousarray(points[:, 0])
+    first, least = simplices[:, 0].copy(), x.take(simplices[:, 0])
     for other in simplices.T[1:]:
-        less, equal = np.zeros(len(first), dtype=bool), np.ones(len(first), dtype=bool)
-        for axis in range(points.shape[1]):
-            mine, its = points[:, axis].take(first), points[:, axis].take(other)
-            less |= equal & (its < mine)
-            equal &= its == mine
-        first[less] = other[less]
+        its = x.take(other)
+        less = its < least
+        tied = np.flatnonzero(its == least)
+        mine, theirs = (points.take(rows.take(tied), axis=0) for rows in (first, other))
+        less[tied] = theirs[:, 1] < mine[:, 1]
+        np.copyto(first, other, where=less)
+        np.copyto(least, its, where=less)
     return first
 
 
@@ -239,22 +257,3 @@ def _near_border(points: FloatArray, box: FloatArray, width: float) -> BoolArray
     high = points >= np.nextafter(box[1] - width, -np.inf)
     near: BoolArray = (low | high).any(axis=1)
     return near
-
-
-def _boundary(
-    found: Filtration,
-    rows: CountArray,
-    edges: IntArray,
-    cells: CountArray,
-    region_labels: CountArray,
-) -> Boundary:
-    corners = found.simplices[2].take(cells, axis=0)
-    # The corner that is neither end; rows are small enough for their sums.
-    apexes = corners.sum(axis=1, dtype=np.int64) - edges.sum(axis=1, dtype=np.int64)
-    triples = np.column_stack((edges, apexes))
-    return Boundary(
-        read_only(rows.take(edges)),
-        read_only(rows.take(apexes)),
-        read_only(found.points.take(triples, axis=0)),
-        read_only(region_labels.take(cells)),
-    )
