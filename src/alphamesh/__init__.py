@@ -19,10 +19,13 @@ if TYPE_CHECKING:
     from alphamesh import check, errors, plot
     from alphamesh.classify import SimplexKind
     from alphamesh.complex import AlphaComplex
+    from alphamesh.complex3d import AlphaComplex3D
     from alphamesh.curves import MeasureCurves, measure_curves
     from alphamesh.delaunay import Delaunay, delaunay
+    from alphamesh.delaunay3d import Delaunay3D
     from alphamesh.film import Film, animate
     from alphamesh.filtration import Filtration, filtration
+    from alphamesh.filtration3d import Filtration3D
     from alphamesh.frame import FRAME_SHAPES, Frame, FramedDelaunay, framed_delaunay
     from alphamesh.hull import ConvexHull, convex_hull
     from alphamesh.io.images import sample_mask
@@ -37,6 +40,7 @@ if TYPE_CHECKING:
     from alphamesh.restricted import RestrictedVoronoi, restricted_voronoi
     from alphamesh.sampling import DEMO_SHAPES, demo_cloud, demo_mask
     from alphamesh.shape import AlphaShape
+    from alphamesh.shape3d import AlphaShape3D
     from alphamesh.voronoi import ClippedVoronoi, Voronoi, voronoi
 
     __version__: str
@@ -46,12 +50,16 @@ __all__ = [
     "FRAME_SHAPES",
     "MESH_FORMATS",
     "AlphaComplex",
+    "AlphaComplex3D",
     "AlphaShape",
+    "AlphaShape3D",
     "ClippedVoronoi",
     "ConvexHull",
     "Delaunay",
+    "Delaunay3D",
     "Film",
     "Filtration",
+    "Filtration3D",
     "Frame",
     "FramedDelaunay",
     "Holes",
@@ -91,10 +99,13 @@ _MODULES = ("check", "errors", "plot")
 _HOMES = {
     "classify": ("SimplexKind",),
     "complex": ("AlphaComplex",),
+    "complex3d": ("AlphaComplex3D",),
     "curves": ("MeasureCurves", "measure_curves"),
     "delaunay": ("Delaunay", "delaunay"),
+    "delaunay3d": ("Delaunay3D",),
     "film": ("Film", "animate"),
     "filtration": ("Filtration", "filtration"),
+    "filtration3d": ("Filtration3D",),
     "frame": ("FRAME_SHAPES", "Frame", "FramedDelaunay", "framed_delaunay"),
     "hull": ("ConvexHull", "convex_hull"),
     "io.images": ("sample_mask",),
@@ -109,6 +120,7 @@ _HOMES = {
     "restricted": ("RestrictedVoronoi", "restricted_voronoi"),
     "sampling": ("DEMO_SHAPES", "demo_cloud", "demo_mask"),
     "shape": ("AlphaShape",),
+    "shape3d": ("AlphaShape3D",),
     "voronoi": ("ClippedVoronoi", "Voronoi", "voronoi"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
