@@ -37,10 +37,12 @@ if TYPE_CHECKING:
     from alphamesh.queries import Nearest
     from alphamesh.radius import RadiusChoice, choose_radius
     from alphamesh.regions import Holes, Regions
+    from alphamesh.regions3d import Regions3D, Voids
     from alphamesh.restricted import RestrictedVoronoi, restricted_voronoi
     from alphamesh.sampling import DEMO_SHAPES, demo_cloud, demo_mask
     from alphamesh.shape import AlphaShape
     from alphamesh.shape3d import AlphaShape3D
+    from alphamesh.solid import Selection3D
     from alphamesh.voronoi import ClippedVoronoi, Voronoi, voronoi
 
     __version__: str
@@ -69,10 +71,13 @@ __all__ = [
     "Persistence",
     "RadiusChoice",
     "Regions",
+    "Regions3D",
     "RestrictedVoronoi",
     "Rings",
     "Selection",
+    "Selection3D",
     "SimplexKind",
+    "Voids",
     "Voronoi",
     "__version__",
     "animate",
@@ -117,10 +122,12 @@ _HOMES = {
     "queries": ("Nearest",),
     "radius": ("RadiusChoice", "choose_radius"),
     "regions": ("Holes", "Regions"),
+    "regions3d": ("Regions3D", "Voids"),
     "restricted": ("RestrictedVoronoi", "restricted_voronoi"),
     "sampling": ("DEMO_SHAPES", "demo_cloud", "demo_mask"),
     "shape": ("AlphaShape",),
     "shape3d": ("AlphaShape3D",),
+    "solid": ("Selection3D",),
     "voronoi": ("ClippedVoronoi", "Voronoi", "voronoi"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

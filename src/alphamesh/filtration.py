@@ -91,6 +91,11 @@ class Filtration(Record):
         """The area of each triangle, ``(T,)`` float64."""
         return read_only(triangle_areas(self.points, self.simplices[2]))
 
+    @property
+    def cell_sizes(self) -> FloatArray:
+        """How large the cells are, which are the triangles: their areas."""
+        return self.triangle_areas
+
     @cached_property
     def vertex_intervals(self) -> Intervals:
         """The radii at which the vertices become singular, regular and interior."""

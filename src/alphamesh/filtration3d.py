@@ -85,6 +85,11 @@ class Filtration3D(Record):
         """The volume of each tetrahedron, ``(T,)`` float64."""
         return read_only(tetrahedron_volumes(self.points, self.simplices[3]))
 
+    @property
+    def cell_sizes(self) -> FloatArray:
+        """How large the cells are, which are the tetrahedra: their volumes."""
+        return self.tetrahedron_volumes
+
     @cached_property
     def triangle_areas(self) -> FloatArray:
         """The area of each triangle, ``(F,)`` float64."""

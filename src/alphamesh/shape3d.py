@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from alphamesh._arrays import read_only
 from alphamesh.classify import checked_radius, chosen, reached
-from alphamesh.simplices3d import SimplexSet3D
+from alphamesh.solid import SolidShape
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, IntArray, KindArray
@@ -17,7 +17,7 @@ __all__ = ["AlphaShape3D"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class AlphaShape3D(SimplexSet3D):
+class AlphaShape3D(SolidShape):
     """The alpha complex of a cloud in space at one radius: all simplices of value <= radius.
 
     Making one costs nothing; each property is computed when it is first asked for, in a

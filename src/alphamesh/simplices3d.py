@@ -14,7 +14,10 @@ from alphamesh.delaunay3d import outward_triangles
 from alphamesh.filtration3d import Filtration3D
 
 if TYPE_CHECKING:
+    import os
+
     from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
+    from alphamesh.io.meshes import Mesh
 
 __all__ = ["SimplexSet3D"]
 
@@ -220,6 +223,70 @@ class SimplexSet3D(Record):
         counts = self.counts
         even = counts["vertices"] + counts["triangles"]
         return even - counts["edges"] - counts["tetrahedra"]
+
+    # What to do with it
+
+    def mesh(self, *, surface: bool = False) -> Mesh:
+        """Return the complex as the mesh that is written to files.
+
+        Parameters
+        ----------
+        surface : bool, default False
+            Put the boundary triangles, counter-clockwise seen from outside, in the place
+            of the tetrahedra.
+
+        Returns
+        -------
+        Mesh
+            The tetrahedra, the singular triangles, the isolated edges as lines and the
+            isolated vertices as vertices, over all rows of `points`. The numbers
+            ``"radius"`` of its cells are their filtration values.
+        """
+        from alphamesh.io.meshes import Mesh
+
+        _, edge_radii, triangle_radii, tetrahedron_radii = self.filtration.radii
+        kinds = self._triangle_kinds
+        triangles = self.singular_triangles
+        radii = triangle_radii.compress(kinds == SimplexKind.SINGULAR)
+        if surface:
+            triangles = np.concatenate((self.boundary_triangles, triangles))
+            regular = triangle_radii.compress(kinds == SimplexKind.REGULAR)
+            radii = np.concatenate((regular, radii))
+        cells = {
+            "vertex": (self.isolated_vertices, np.zeros(len(self.isolated_vertices))),
+            "line": (self.isolated_edges, edge_radii.compress(self._isolated_edge)),
+            "triangle": (triangles, radii),
+        }
+        if not surface:
+            inside = tetrahedron_radii.compress(self._has_tetrahedron)
+            cells["tetra"] = self.tetrahedra, inside
+        return Mesh(
+            self.points,
+            {kind: rows for kind, (rows, _) in cells.items()},
+            cell_data={"radius": {kind: values for kind, (_, values) in cells.items()}},
+        )
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        file_format: str | None = None,
+        keep_all: bool = False,
+    ) -> None:
+        """Write the complex to a mesh file, whole or not at all.
+
+        Formats that hold tetrahedra (VTU, VTK, MSH and NPZ) get ``mesh()``, the others
+        (PLY, OBJ, OFF and STL) ``mesh(surface=True)``. Vertices are written in the order
+        of the points, with their rows in `points` as the numbers ``"input_row"`` where
+        the format holds numbers.
+
+        Parameters, errors and warnings are those of :meth:`alphamesh.AlphaShape.save`.
+        """
+        from alphamesh.io.meshes import mesh_format, write_mesh
+
+        surface = "tetra" not in mesh_format(path, file_format).cells
+        mesh = self.mesh(surface=surface)
+        write_mesh(mesh, path, file_format=file_format, keep_all=keep_all)
 
 
 def _counted(kinds: KindArray) -> tuple[int, int, int]:
