@@ -23,9 +23,10 @@ __all__ = ["Cloud", "as_cloud", "coordinate_error", "merged_rows", "refuse_overf
 
 _FLOAT64 = np.dtype(np.float64)
 
-# The core's exact sums reach from the square of the largest coordinate down to the square
-# of the last binary digit of the smallest one; this many binary digits fit in between.
-_EXPONENT_RANGE = 490
+# The core's exact sums reach from a power of the largest coordinate, higher in space, down
+# to that power of the last binary digit of the smallest one; so many binary digits fit in
+# between.
+_EXPONENT_RANGES = {2: 490, 3: 325}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -140,12 +141,12 @@ def refuse_overflow(simplices: IntArray, radii: FloatArray) -> None:
 
 def _range_error(points: FloatArray) -> CoordinateRangeError:
     """Name the rows that are too small beside the others, or too large if these are fewer."""
-    sizes = np.abs(points)
+    sizes, digits = np.abs(points), _EXPONENT_RANGES[points.shape[1]]
     used = sizes > 0
     first = np.where(used, np.frexp(sizes)[1], np.iinfo(np.int32).min)
     last = np.where(used, _last_digit(sizes), np.iinfo(np.int32).max)
-    tiny = np.flatnonzero((int(first.max()) - last > _EXPONENT_RANGE).any(axis=1))
-    huge = np.flatnonzero((first - int(last.min()) > _EXPONENT_RANGE).any(axis=1))
+    tiny = np.flatnonzero((int(first.max()) - last > digits).any(axis=1))
+    huge = np.flatnonzero((first - int(last.min()) > digits).any(axis=1))
     largest = float(sizes.max())
     if len(huge) < len(tiny):
         return CoordinateRangeError(
@@ -156,7 +157,7 @@ def _range_error(points: FloatArray) -> CoordinateRangeError:
             rows=huge[:6],
         )
     # Any number of at least this size has all of its 53 digits within the range.
-    safe = float(np.ldexp(largest, 53 - _EXPONENT_RANGE))
+    safe = float(np.ldexp(largest, 53 - digits))
     return CoordinateRangeError(
         "coordinates too far apart in scale for exact arithmetic: too small in "
         f"{rows_text(tiny[:6], total=len(tiny))} of {len(points):,}, beside {largest:.6g}; "
