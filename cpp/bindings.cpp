@@ -147,6 +147,7 @@ NB_MODULE(_core, m) {
   m.def("orient2", &orient2, nb::arg("points"));
   m.def("dot2", &dot2, nb::arg("points"));
   m.def("incircle2", &incircle2, nb::arg("points"), nb::arg("perturb"));
+  bind_incidence3(m);
   bind_outlines2(m);
   bind_space3(m);
   bind_voronoi2(m);

@@ -2,6 +2,7 @@
 #include "bindings.hpp"
 #include "nearest2.hpp"
 #include "outline2.hpp"
+#include "parts.hpp"
 
 namespace alphamesh {
 namespace {
@@ -28,7 +29,10 @@ nb::object parts2_py(const Points2& points, const Ids& triangles, const Ids& edg
   const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
   Job job(1);
   Buffer<std::int32_t> out;
-  run_watched(job, view.n, nb::none(), [&] { out = parts2(view, inside.data(), job); });
+  run_watched(job, view.n, nb::none(), [&] {
+    out = parts(view.triangle_count, view.edge_triangles, view.edge_count, inside.data(), nullptr,
+                job);
+  });
   return array(std::move(out));
 }
 

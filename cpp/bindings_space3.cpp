@@ -1,10 +1,16 @@
 // Python functions for clouds in space.
+#include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "bindings.hpp"
+#include "delaunay2.hpp"
 #include "delaunay3.hpp"
+#include "output2.hpp"
 #include "output3.hpp"
 #include "predicates3.hpp"
+#include "sheet.hpp"
+#include "span3.hpp"
 #include "spatial_sort.hpp"
 
 namespace alphamesh {
@@ -14,7 +20,23 @@ using Points3 = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::de
 template <std::size_t K>
 using Tuples3 = nb::ndarray<const double, nb::shape<-1, K, 3>, nb::c_contig, nb::device::cpu>;
 
-// The dimension of the cloud, and empty arrays unless it is 3.
+Filtration3 flat_filtration(const SpatialOrder3& order, const std::vector<std::int32_t>& span,
+                            Job& job) {
+  SpatialOrder<Sheet> sheet = sheet_of(order, span, job);
+  Mesh2 mesh = delaunay2(sheet, job);
+  Filtration2 flat = filtration2(sheet, mesh, job);
+  Filtration3 f;
+  f.triangle_tetrahedra = Buffer<std::int32_t>(2 * flat.triangle_radii.size());
+  std::fill(f.triangle_tetrahedra.begin(), f.triangle_tetrahedra.end(), -1);
+  f.triangles = std::move(flat.triangles);
+  f.triangle_radii = std::move(flat.triangle_radii);
+  f.edges = std::move(flat.edges);
+  f.edge_radii = std::move(flat.edge_radii);
+  return f;
+}
+
+// The dimension of the cloud, and the simplices that it has: of a cloud in a plane the
+// triangles without tetrahedra, on a line the edges.
 nb::tuple alpha3(const Points3& points, int threads, const nb::object& progress) {
   const std::size_t n = points.shape(0);
   if (n > kMaxPoints3) throw TooManyPoints("at most 2^26 points");
@@ -24,10 +46,15 @@ nb::tuple alpha3(const Points3& points, int threads, const nb::object& progress)
   int dimension = -1;
   run_watched(job, n, progress, [&] {
     order = spatial_order3(points.data(), n, job);
-    Mesh3 mesh = delaunay3(order, job);
-    dimension = mesh.dimension;
-    const Buffer<Tetrahedron> compact = compact3(order, std::move(mesh), job);
-    f = filtration3(order, compact, job);
+    const std::vector<std::int32_t> span = spanning_points(order, job);
+    dimension = static_cast<int>(span.size()) - 1;
+    if (dimension == 3) {
+      Mesh3 mesh = delaunay3(order, span, job);
+      const Buffer<Tetrahedron> compact = compact3(order, std::move(mesh), job);
+      f = filtration3(order, compact, job);
+    } else {
+      f = flat_filtration(order, span, job);
+    }
   });
   nb::object representative = nb::none();
   if (order.representative.size() != 0) representative = array(std::move(order.representative));

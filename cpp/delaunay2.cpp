@@ -3,6 +3,8 @@
 #include <atomic>
 #include <vector>
 
+#include "sheet.hpp"
+
 namespace alphamesh {
 namespace {
 
@@ -16,9 +18,16 @@ struct Piece {
 
 enum class Axis { kX, kY };
 
+// Where a range of points is cut in two.
+struct Cut {
+  std::size_t at;
+  Axis axis;
+};
+
+template <class S>
 class Builder {
  public:
-  Builder(SpatialOrder2& order, Mesh2& mesh, const Job& job)
+  Builder(SpatialOrder<S>& order, Mesh2& mesh, const Job& job)
       : p_(order.points.data()),
         row_(order.row.data()),
         key_(order.key.data()),
@@ -26,16 +35,13 @@ class Builder {
         lattice_(order.lattice),
         job_(job) {}
 
-  struct Cut {
-    std::size_t at;
-    Axis axis;
-  };
-
   Cut cut(std::size_t lo, std::size_t hi) const;
   Piece solve(std::size_t lo, std::size_t hi);
   Piece merge(Piece left, Piece right, std::size_t mid, Axis axis);
 
  private:
+  using Point = typename S::Point;
+
   // The growing seam: base edge from a (left) to b (right), the half-edge below it, and
   // the ghosts next on either side.
   struct Seam {
@@ -60,7 +66,7 @@ class Builder {
   Id ghost_after(Id g) const { return Mesh2::base(twin(g + 2)); }  // counter-clockwise
   Id ghost_before(Id g) const { return Mesh2::base(twin(g + 1)); }
 
-  static bool precedes(Point2 a, Point2 b, Axis axis) {
+  static bool precedes(Point a, Point b, Axis axis) {
     return axis == Axis::kX ? a < b : (a.y < b.y || (a.y == b.y && a.x < b.x));
   }
   int turn(Id a, Id b, Id c) const { return orient(p_[a], p_[b], p_[c], lattice_); }
@@ -74,7 +80,7 @@ class Builder {
   void trim_right(Seam& s);
   void zip(Seam& s);
 
-  Point2* p_;
+  Point* p_;
   Id* row_;
   std::uint64_t* key_;
   Id* m_;
@@ -84,7 +90,8 @@ class Builder {
 
 // Where the Morton codes of a range first part: left of it, all coordinates along the
 // axis are smaller. Equal codes are in lexicographic order and are halved.
-Builder::Cut Builder::cut(std::size_t lo, std::size_t hi) const {
+template <class S>
+Cut Builder<S>::cut(std::size_t lo, std::size_t hi) const {
   std::uint64_t differ = key_[lo] ^ key_[hi - 1];
   if (differ == 0) return {lo + (hi - lo) / 2, Axis::kX};
   int bit = 0;
@@ -103,7 +110,8 @@ Builder::Cut Builder::cut(std::size_t lo, std::size_t hi) const {
   return {last, (bit & 1) != 0 ? Axis::kX : Axis::kY};
 }
 
-Piece Builder::edge(Id a, Id b) {
+template <class S>
+Piece Builder<S>::edge(Id a, Id b) {
   const Id low = 16 * a, high = low + 8;  // slots 2a and 2a + 1
   set_ghost(low, b, a);
   set_ghost(high, a, b);
@@ -111,7 +119,8 @@ Piece Builder::edge(Id a, Id b) {
   return {low, high, -1};
 }
 
-Piece Builder::triangle(Id a, Id b, Id c) {
+template <class S>
+Piece Builder<S>::triangle(Id a, Id b, Id c) {
   const Id t = 16 * a;
   const int side = turn(a, b, c);
   if (side == 0) return {};
@@ -127,7 +136,8 @@ Piece Builder::triangle(Id a, Id b, Id c) {
 }
 
 // A few points: cut vertically, so that their order is lexicographic.
-Piece Builder::leaf(std::size_t lo, std::size_t hi) {
+template <class S>
+Piece Builder<S>::leaf(std::size_t lo, std::size_t hi) {
   const Id a = static_cast<Id>(lo);
   if (hi - lo == 1) return {-1, -1, a};
   if (hi - lo == 2) return edge(a, a + 1);
@@ -140,7 +150,8 @@ Piece Builder::leaf(std::size_t lo, std::size_t hi) {
   return merge(left, right, mid, Axis::kX);
 }
 
-Piece Builder::solve(std::size_t lo, std::size_t hi) {
+template <class S>
+Piece Builder<S>::solve(std::size_t lo, std::size_t hi) {
   constexpr std::size_t kLeaf = 8;
   if (hi - lo > kLeaf) {
     const Cut c = cut(lo, hi);
@@ -148,7 +159,7 @@ Piece Builder::solve(std::size_t lo, std::size_t hi) {
     return merge(left, right, c.at, c.axis);
   }
   for (std::size_t i = lo + 1; i < hi; ++i) {  // insertion sort
-    const Point2 p = p_[i];
+    const Point p = p_[i];
     const Id row = row_[i];
     std::size_t k = i;
     for (; k > lo && p < p_[k - 1]; --k) {
@@ -163,7 +174,8 @@ Piece Builder::solve(std::size_t lo, std::size_t hi) {
 
 // The ghost that starts at the extreme hull vertex: hulls are convex, so that a climb
 // from anywhere gets there.
-Id Builder::extreme(Piece piece, Axis axis, bool greatest) const {
+template <class S>
+Id Builder<S>::extreme(Piece piece, Axis axis, bool greatest) const {
   auto better = [&](Id u, Id v) {
     return greatest ? precedes(p_[v], p_[u], axis) : precedes(p_[u], p_[v], axis);
   };
@@ -179,7 +191,8 @@ Id Builder::extreme(Piece piece, Axis axis, bool greatest) const {
 
 // From the edge between the nearest extremes down to the common tangent: in the end no
 // point of either side lies to the right of a -> b.
-void Builder::find_tangent(Id& left, Id& right, Id& a, Id& b) const {
+template <class S>
+void Builder<S>::find_tangent(Id& left, Id& right, Id& a, Id& b) const {
   for (;;) {
     if (left >= 0) {
       const Id g = ghost_before(left), c = m_[g + 1];
@@ -203,7 +216,8 @@ void Builder::find_tangent(Id& left, Id& right, Id& a, Id& b) const {
 
 // Removes the hull edges a -> tip of the left side whose triangle has its apex inside the
 // circle through a, b and the tip: the edge is flipped out, and two ghosts remain.
-void Builder::trim_left(Seam& s) {
+template <class S>
+void Builder<S>::trim_left(Seam& s) {
   for (;;) {
     const Id h = twin(s.left), apex = m_[Mesh2::prev(h)];  // h runs from a to the tip
     if (apex < 0 || !in_circle(p_[s.a], p_[s.b], p_[s.left_tip], p_[apex], lattice_)) return;
@@ -219,7 +233,8 @@ void Builder::trim_left(Seam& s) {
   }
 }
 
-void Builder::trim_right(Seam& s) {
+template <class S>
+void Builder<S>::trim_right(Seam& s) {
   for (;;) {
     const Id h = twin(s.right), apex = m_[Mesh2::prev(h)];  // h runs from the tip to b
     if (apex < 0 || !in_circle(p_[s.a], p_[s.b], p_[s.right_tip], p_[apex], lattice_)) return;
@@ -237,7 +252,8 @@ void Builder::trim_right(Seam& s) {
 
 // Raises the seam triangle by triangle. A ghost becomes a triangle when the point at
 // infinity is replaced by the far end of the base edge.
-void Builder::zip(Seam& s) {
+template <class S>
+void Builder<S>::zip(Seam& s) {
   for (unsigned step = 1;; ++step) {
     if ((step & 0xffffu) == 0) job_.poll();
     const bool left = s.left >= 0 && turn(s.a, s.b, s.left_tip) > 0;
@@ -266,7 +282,8 @@ void Builder::zip(Seam& s) {
   }
 }
 
-Piece Builder::merge(Piece left_piece, Piece right_piece, std::size_t mid, Axis axis) {
+template <class S>
+Piece Builder<S>::merge(Piece left_piece, Piece right_piece, std::size_t mid, Axis axis) {
   const bool one_left = left_piece.low < 0, one_right = right_piece.low < 0;
   Id left = one_left ? -1 : extreme(left_piece, axis, true);
   Id right = one_right ? -1 : extreme(right_piece, axis, false);
@@ -298,19 +315,20 @@ Piece Builder::merge(Piece left_piece, Piece right_piece, std::size_t mid, Axis 
 // threads can take the leaves and whoever finishes a second child merges.
 struct Node {
   std::size_t lo = 0, hi = 0;
-  Builder::Cut cut{0, Axis::kX};
+  Cut cut{0, Axis::kX};
   std::size_t parent = 0, child[2] = {0, 0};  // no children: a leaf
   Piece piece;
 };
 
-void plan(std::vector<Node>& nodes, std::vector<std::size_t>& leaves, const Builder& builder,
+template <class S>
+void plan(std::vector<Node>& nodes, std::vector<std::size_t>& leaves, const Builder<S>& builder,
           std::size_t i, std::size_t grain) {
   const std::size_t lo = nodes[i].lo, hi = nodes[i].hi;
   if (hi - lo <= grain) {
     leaves.push_back(i);
     return;
   }
-  const Builder::Cut c = builder.cut(lo, hi);
+  const Cut c = builder.cut(lo, hi);
   nodes[i].cut = c;
   for (int k = 0; k < 2; ++k) {
     Node child;
@@ -326,13 +344,14 @@ void plan(std::vector<Node>& nodes, std::vector<std::size_t>& leaves, const Buil
 
 }  // namespace
 
-Mesh2 delaunay2(SpatialOrder2& order, Job& job) {
+template <class S>
+Mesh2 delaunay2(SpatialOrder<S>& order, Job& job) {
   Mesh2 mesh;
   const std::size_t n = order.size;
   if (n < 2) return mesh;
   mesh.triangles = 2 * n - 2;
   mesh.slot = Buffer<Id>(8 * mesh.triangles);
-  Builder builder(order, mesh, job);
+  Builder<S> builder(order, mesh, job);
 
   std::vector<Node> nodes(1);
   nodes[0].hi = n;
@@ -358,5 +377,8 @@ Mesh2 delaunay2(SpatialOrder2& order, Job& job) {
   mesh.ghost = nodes[0].piece.low;
   return mesh;
 }
+
+template Mesh2 delaunay2<Plane>(SpatialOrder2&, Job&);
+template Mesh2 delaunay2<Sheet>(SpatialOrder<Sheet>&, Job&);
 
 }  // namespace alphamesh

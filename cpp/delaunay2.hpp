@@ -1,4 +1,4 @@
-// The Delaunay triangulation of distinct points in the plane.
+// The Delaunay triangulation of distinct points in a plane.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +41,9 @@ struct Mesh2 {
 
 // Divide and conquer (Guibas & Stolfi 1985) along the cuts of the Morton order (after
 // Dwyer 1987), on triangles with ghosts (Shewchuk 1996). The result is the unique
-// triangulation that the symbolic perturbation of in_circle() defines.
-Mesh2 delaunay2(SpatialOrder2& order, Job& job);
+// triangulation that the symbolic perturbation of in_circle() defines. S is Plane, or Sheet
+// for a plane in space.
+template <class S>
+Mesh2 delaunay2(SpatialOrder<S>& order, Job& job);
 
 }  // namespace alphamesh

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "memory.hpp"
 #include "parallel.hpp"
@@ -23,7 +24,6 @@ struct Tetrahedron {
 struct Mesh3 {
   Buffer<Tetrahedron> slot;
   std::size_t slots = 0;      // in use or free; free ones have vertex[0] = -1
-  int dimension = -1;         // of the cloud; the mesh is empty unless it is 3
   std::int32_t infinity = 0;  // = number of points
 };
 
@@ -36,6 +36,8 @@ struct Mesh3 {
 // a tetrahedron shares three vertices with each neighbour, at least two of them finite, so
 // that no other thread can touch a neighbour either: nothing is shared, nothing is locked.
 // Points whose cavity reaches further wait until the others are done.
-Mesh3 delaunay3(const SpatialOrder3& order, Job& job);
+//
+// `span` comes from spanning_points(): four of them.
+Mesh3 delaunay3(const SpatialOrder3& order, const std::vector<std::int32_t>& span, Job& job);
 
 }  // namespace alphamesh

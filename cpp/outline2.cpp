@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "disjoint_sets.hpp"
-
 namespace alphamesh {
 namespace {
 
@@ -198,32 +196,6 @@ std::vector<Ring> by_region(const std::vector<Ring>& rings) {
 }
 
 }  // namespace
-
-Buffer<std::int32_t> parts2(const ComplexView2& view, const bool* inside, Job& job) {
-  const auto outside = static_cast<Id>(view.triangle_count);
-  DisjointSets sets(view.triangle_count + 1);
-  for (std::size_t e = 0; e < view.edge_count; ++e) {
-    if ((e & kPoll) == 0) job.poll();
-    const Id s = view.edge_triangles[2 * e], t = view.edge_triangles[2 * e + 1];
-    if (s < 0 || (t < 0 ? inside[s] : inside[s] != inside[t])) continue;
-    const Id a = sets.root(s), b = sets.root(t < 0 ? outside : t);
-    if (a != b) sets.join(std::max(a, b), std::min(a, b));
-  }
-  const Id around = sets.root(outside);
-  Buffer<Id> part(view.triangle_count);
-  Id regions = 0, holes = -2;
-  for (std::size_t t = 0; t < view.triangle_count; ++t) {  // roots come first
-    const Id root = sets.root(static_cast<Id>(t));
-    if (root != static_cast<Id>(t)) {
-      part[t] = part[at(root)];
-    } else if (root == around) {
-      part[t] = -1;
-    } else {
-      part[t] = inside[t] ? regions++ : holes--;
-    }
-  }
-  return part;
-}
 
 Outlines2 outlines2(const ComplexView2& view, const std::int32_t* region, Job& job) {
   const Buffer<Side> sides = sides_of(view, region, job);

@@ -1,4 +1,4 @@
-// Sets of triangles: their connected parts, and the rings that bound them.
+// Sets of triangles: the rings that bound them.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,6 @@
 #include "rings2.hpp"
 
 namespace alphamesh {
-
-// Numbers the connected parts of the triangles that are `inside` (T,), and of the others;
-// triangles are connected by edges, not by vertices. Returns (T,): parts of the inside are
-// 0, 1, ... in the order of their first triangles, the one around everything is -1, and
-// holes are -2, -3, ...
-Buffer<std::int32_t> parts2(const ComplexView2& view, const bool* inside, Job& job);
 
 // Closed walks with their region on the left: an outer ring runs counter-clockwise, a hole
 // clockwise. Rings are sorted by region, outer rings first, and start at their

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "sheet.hpp"
 #include "values2.hpp"
 
 namespace alphamesh {
@@ -60,6 +61,22 @@ std::size_t number_triangles(Mesh2& mesh, const Parts& parts, std::size_t part, 
   return edges;
 }
 
+// What evaluates triangles and edges.
+template <class S>
+struct Blocks;
+
+template <>
+struct Blocks<Plane> {
+  using Triangles = TriangleBlock;
+  using Edges = EdgeBlock;
+};
+
+template <>
+struct Blocks<Sheet> {
+  using Triangles = SheetTriangles;
+  using Edges = SheetEdges;
+};
+
 // Turns counts (count[i + 1] of part i) into first rows.
 void accumulate(std::vector<std::size_t>& count) {
   for (std::size_t i = 1; i < count.size(); ++i) count[i] += count[i - 1];
@@ -80,14 +97,15 @@ void write_edge(const Id* row, Id u, Id v, Id* out) {
 }
 
 // Writes the triangles of a part and returns how many edges it will write.
-std::vector<std::size_t> write_triangles(const SpatialOrder2& order, Mesh2& mesh,
+template <class S>
+std::vector<std::size_t> write_triangles(const SpatialOrder<S>& order, Mesh2& mesh,
                                          const Parts& parts, const std::vector<std::size_t>& first,
                                          Filtration2& out, Job& job) {
   const Id* row = order.row.data();
-  const Point2* p = order.points.data();
+  const auto* p = order.points.data();
   std::vector<std::size_t> edges(parts.count() + 1, 0);
   job.run(parts.count(), [&](std::size_t part) {
-    TriangleBlock block;
+    typename Blocks<S>::Triangles block;
     std::size_t slot[TriangleBlock::kSize], written = first[part];
     auto flush = [&] {
       block.measure(order.lattice, order.exponent);
@@ -116,9 +134,10 @@ std::vector<std::size_t> write_triangles(const SpatialOrder2& order, Mesh2& mesh
 }
 
 // Writes the edges h[0] ... h[count - 1] from row e on.
+template <class S>
 class EdgeWriter {
  public:
-  EdgeWriter(const SpatialOrder2& order, const Mesh2& mesh, Filtration2& out)
+  EdgeWriter(const SpatialOrder<S>& order, const Mesh2& mesh, Filtration2& out)
       : p_(order.points.data()),
         row_(order.row.data()),
         m_(mesh.slot.data()),
@@ -127,9 +146,7 @@ class EdgeWriter {
 
   void write(const Id* h, std::size_t count, std::size_t e) {
     for (std::size_t i = 0; i < count; ++i) {
-      const Point2 a = p_[m_[h[i]]], b = p_[m_[m_[h[i] + 4]]];
-      block_.dx[i] = a.x - b.x;
-      block_.dy[i] = a.y - b.y;
+      block_.set(i, p_[m_[h[i]]], p_[m_[m_[h[i] + 4]]]);
     }
     block_.measure(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -150,18 +167,19 @@ class EdgeWriter {
     out_.edge_triangles[2 * e + 1] = here < 0 ? -1 : there;
   }
 
-  const Point2* p_;
+  const typename S::Point* p_;
   const Id* row_;
   const Id* m_;
   PowerOfTwo unscale_;
   Filtration2& out_;
-  EdgeBlock block_;
+  typename Blocks<S>::Edges block_;
 };
 
-void write_edges(const SpatialOrder2& order, const Mesh2& mesh, const Parts& parts,
+template <class S>
+void write_edges(const SpatialOrder<S>& order, const Mesh2& mesh, const Parts& parts,
                  const std::vector<std::size_t>& first, Filtration2& out, Job& job) {
   job.run(parts.count(), [&](std::size_t part) {
-    EdgeWriter writer(order, mesh, out);
+    EdgeWriter<S> writer(order, mesh, out);
     Id owned[EdgeBlock::kSize];
     std::size_t e = first[part];
     for (std::size_t t = parts.begin(part); t < parts.end(part);) {
@@ -179,7 +197,8 @@ void write_edges(const SpatialOrder2& order, const Mesh2& mesh, const Parts& par
 
 }  // namespace
 
-Filtration2 filtration2(const SpatialOrder2& order, Mesh2& mesh, Job& job) {
+template <class S>
+Filtration2 filtration2(const SpatialOrder<S>& order, Mesh2& mesh, Job& job) {
   Filtration2 out;
   if (mesh.triangles == 0) return out;
   const Parts parts(mesh.triangles, job);
@@ -195,6 +214,9 @@ Filtration2 filtration2(const SpatialOrder2& order, Mesh2& mesh, Job& job) {
   write_edges(order, mesh, parts, first_edge, out, job);
   return out;
 }
+
+template Filtration2 filtration2<Plane>(const SpatialOrder2&, Mesh2&, Job&);
+template Filtration2 filtration2<Sheet>(const SpatialOrder<Sheet>&, Mesh2&, Job&);
 
 Triangulation2 triangulation2(const SpatialOrder2& order, Mesh2& mesh, Job& job) {
   Triangulation2 out;

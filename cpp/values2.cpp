@@ -4,20 +4,13 @@
 #include <cmath>
 
 namespace alphamesh {
-namespace {
 
-// Circumradius of the triangle with squared sides u, v, w and twice the area `det`, times
-// 2^exponent, where the plain formula leaves the range of doubles.
 double circumradius_scaled(double u, double v, double w, double det, int exponent) {
   int eu, ev, ew, ed;
   const double m = std::frexp(std::sqrt(u), &eu) * std::frexp(std::sqrt(v), &ev) *
                    std::frexp(std::sqrt(w), &ew) / std::frexp(det, &ed);
   return std::ldexp(m, eu + ev + ew - ed - 1 + exponent);
 }
-
-constexpr double kLargeSq = 0x1p1000, kSmallSq = 0x1p-900;
-
-}  // namespace
 
 // R^2 = u v w / (4 det^2), u, v, w the squared sides. The differences and so the sides
 // are good to an ulp or two; det has a relative error of at most 4 eps (|l| + |r|) / |det|.

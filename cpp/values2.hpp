@@ -44,8 +44,18 @@ struct EdgeBlock {
   double dx[kSize], dy[kSize];
   double half_length[kSize];
 
+  void set(std::size_t i, Point2 a, Point2 b) {
+    dx[i] = a.x - b.x;
+    dy[i] = a.y - b.y;
+  }
   void measure(std::size_t count);
 };
+
+// Circumradius of the triangle with squared sides u, v, w and twice the area `det`, times
+// 2^exponent, where the plain formula leaves the range of doubles.
+double circumradius_scaled(double u, double v, double w, double det, int exponent);
+// The range of squared radii where it does not.
+constexpr double kLargeSq = 0x1p1000, kSmallSq = 0x1p-900;
 
 inline bool lexicographic(Point2 a, Point2 b) {  // a < b, without a branch
   return (a.x < b.x) | ((a.x == b.x) & (a.y < b.y));

@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "values2.hpp"
+
 namespace alphamesh {
 namespace {
 
 using Vector = Vector3<double>;
 
 constexpr double kLarge = 0x1p450, kSmall = 0x1p-450;
-// Below these shares of their greatest possible value, a volume (6 x, against the product
-// of three sides), a circumcentre and a squared normal are computed again in
-// double-double: relative errors stay below 2e-13.
+// Below this share of their greatest possible value, a volume (6 x, against the product of
+// three sides) and a circumcentre are computed again in double-double: relative errors stay
+// below 2e-13.
 constexpr double kFlat = 1.0 / 128.0;
-constexpr double kThin = 1.0 / 1024.0;
 
 double square(const Vector& v) { return dot(v, v); }
 
@@ -70,37 +71,39 @@ Measure3::Solid Measure3::tetrahedron(const Point3* p) const {
   return {radius, attached};
 }
 
+// As TriangleBlock, in space: on a sheet along two axes, all is the same to the last bit.
 Measure3::Flat Measure3::triangle(const Point3* p) const {
-  const Vector b = p[1] - p[0], c = p[2] - p[0], d = p[2] - p[1];
-  const double b2 = square(b), c2 = square(c), d2 = square(d);
-  // At most one angle is not acute.
-  const double angle[3] = {dot(b, c), -dot(b, d), dot(c, d)};
-  const double longest = std::max(b2, std::max(c2, d2)), unsure = 8.0 * kEps * longest;
+  const Vector u = p[1] - p[0], v = p[2] - p[1], w = p[0] - p[2];
+  const double side[3] = {square(v), square(w), square(u)};  // opposite to each vertex
+  const double angle[3] = {-dot(u, w), -dot(u, v), -dot(v, w)};
+  const double longest = std::max(side[0], std::max(side[1], side[2]));
+  const double least = std::min(angle[0], std::min(angle[1], angle[2]));
+  const double yz = u.y * w.z, zy = u.z * w.y, zx = u.z * w.x, xz = u.x * w.z;
+  const double xy = u.x * w.y, yx = u.y * w.x;
+  const Vector n{yz - zy, zx - xz, xy - yx};
+  const double terms =
+      std::fabs(yz) + std::fabs(zy) + std::fabs(zx) + std::fabs(xz) + std::fabs(xy) + std::fabs(yx);
+  const double det = norm(n), radius_sq = 0.25 * ((side[2] / det) * (side[0] / det) * side[1]);
+  const bool sure = std::fabs(least) > 4.0 * kEps * longest && det * 16.0 >= terms &&
+                    radius_sq < kLargeSq && radius_sq > kSmallSq;
+  if (!sure) return triangle_carefully(p, side);
+  const int obtuse = angle[0] < 0.0 ? 0 : angle[1] < 0.0 ? 1 : angle[2] < 0.0 ? 2 : 3;
+  return {unscale_ * std::sqrt(std::max(radius_sq, 0.25 * longest)), obtuse};
+}
+
+Measure3::Flat Measure3::triangle_carefully(const Point3* p, const double* side) const {
   int obtuse = 3;
   for (int k = 0; k < 3; ++k) {
-    int side = angle[k] < 0.0 ? -1 : 1;
-    if (std::fabs(angle[k]) <= unsure) {
-      side = dot3(p[(k + 1) % 3], p[(k + 2) % 3], p[k], lattice_);
-      if (side == 0) return {edge(p[(k + 1) % 3], p[(k + 2) % 3]), 3};
-    }
-    if (side < 0) obtuse = k;
+    const int angle = dot3(p[(k + 1) % 3], p[(k + 2) % 3], p[k], lattice_);
+    if (angle == 0) return {unscale_ * (0.5 * std::sqrt(side[k])), 3};
+    if (angle < 0) obtuse = k;
   }
-  Vector n = cross(b, c);
-  double n2 = square(n);
-  if (!(n2 > kThin * (b2 * c2))) {
-    n = normal_accurate(p[0], p[1], p[2]);
-    n2 = square(n);
-  }
-  const double radius_sq = 0.25 * ((b2 / n2) * c2 * d2);
-  double radius = 0.0;
-  if (radius_sq < kLarge * kLarge && radius_sq > kSmall * kSmall && n2 > 0x1p-900) {
-    radius = unscale_ * std::sqrt(radius_sq);
-  } else {
-    int es, el;
-    const double sides = std::frexp(std::sqrt(b2) * std::sqrt(c2), &es);
-    const double length = std::frexp(quotient(n, 1.0, 0), &el);
-    radius = std::ldexp(sides * std::sqrt(d2) / length, es - el - 1 + exponent_);
-  }
+  const double det = norm(normal_accurate(p[0], p[1], p[2]));
+  const double radius_sq = 0.25 * ((side[2] / det) * (side[0] / det) * side[1]);
+  const double longest = std::max(side[0], std::max(side[1], side[2]));
+  const bool plain = radius_sq < kLargeSq && radius_sq > kSmallSq;
+  const double radius = plain ? unscale_ * std::sqrt(radius_sq)
+                              : circumradius_scaled(side[2], side[0], side[1], det, exponent_);
   return {std::max(radius, unscale_ * (0.5 * std::sqrt(longest))), obtuse};
 }
 

@@ -7,8 +7,9 @@
 
 namespace alphamesh {
 
-// Vertices in lexicographic order, so that a value is the same to the last bit wherever
-// the simplex is met. Radii are 2^exponent times what they are in the coordinates given.
+// Vertices in an order that depends on the points alone, as the lexicographic one, so that a
+// value is the same to the last bit wherever the simplex is met. Radii are 2^exponent times what
+// they are in the coordinates given.
 class Measure3 {
  public:
   Measure3(const Lattice3& lattice, int exponent)
@@ -28,6 +29,7 @@ class Measure3 {
 
  private:
   double circumradius_carefully(const Point3* p) const;
+  Flat triangle_carefully(const Point3* p, const double* side) const;  // squared, opposite
 
   const Lattice3& lattice_;
   int exponent_;

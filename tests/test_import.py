@@ -151,7 +151,7 @@ def test_type_checkers_see_the_lazy_names(tmp_path):
     lines = done.stdout.splitlines()
     said = [line.partition(": ")[2] for line in lines if line.startswith("snippet.py:")]
     assert 'note: Revealed type is "float"' in said[0].replace("builtins.", "")
-    assert 'note: Revealed type is "alphamesh.filtration.Filtration"' in said[1]
+    assert "alphamesh.filtration.Filtration | alphamesh.filtration3d.Filtration3D" in said[1]
     assert 'note: Revealed type is "str"' in said[2].replace("builtins.", "")
     assert said[3].startswith('error: Missing positional argument "points"')
     assert said[4].startswith('error: Module has no attribute "nonsense"')

@@ -86,6 +86,26 @@ def test_a_read_only_view_is_copied_as_its_base_can_change():
     np.testing.assert_array_equal(made, EXPECTED)
 
 
+def test_points_in_space_and_stages_of_one_dimension():
+    space = np.arange(12.0).reshape(4, 3)
+    assert as_cloud(space).points.tobytes() == space.tobytes()
+    assert as_cloud(space.astype(int)).points.shape == (4, 3)
+    assert as_cloud(space.tolist(), 3).points.shape == (4, 3)
+    assert as_cloud(np.empty((0, 3))).points.shape == (0, 3)
+    cloud = as_cloud(space)
+    assert as_cloud(cloud) is as_cloud(cloud, 3) is cloud
+    for source in (space, space.tolist(), cloud):
+        with pytest.raises(CloudShapeError, match=r"in the plane alone: .* points\[:, :2\]"):
+            as_cloud(source, 2)
+    with pytest.raises(CloudShapeError, match=r"in space alone: .*numpy\.zeros"):
+        as_cloud(space[:, :2], 3)
+    with pytest.raises(CloudShapeError, match="three coordinates: look at row 1"):
+        as_cloud([[1, 2, 3], [4, 5], [6, 7, 8]])
+    for stage in (am.delaunay, am.convex_hull, am.voronoi, am.framed_delaunay):
+        with pytest.raises(CloudShapeError, match="in the plane alone"):
+            stage(space)
+
+
 def test_negative_zero_stays():
     made = as_cloud([[-0.0, 1.0]]).points
     assert np.signbit(made[0, 0])
@@ -105,12 +125,13 @@ def test_cloud_cannot_change():
 
 SHAPES = {
     "no shape": ([], "numpy.empty((0, 2))"),
-    "no rows but three columns": (np.empty((0, 3)), "numpy.empty((0, 2))"),
+    "no rows but four columns": (np.empty((0, 4)), "numpy.empty((0, 2))"),
     "one point": ([1.0, 2.0], "[[x, y]]"),
+    "one point in space": ([1.0, 2.0, 3.0], "[[x, y, z]]"),
     "one dimension": (np.arange(6.0), "numpy.column_stack([x, y])"),
     "one column": (np.ones((5, 1)), "numpy.column_stack([x, y])"),
-    "three columns": (np.ones((5, 3)), "3D is not there yet"),
-    "two by three": (np.ones((2, 3)), "points[:, :2]"),
+    "four columns": (np.ones((5, 4)), "points[:, :2]"),
+    "three rows": (np.ones((3, 500)), "points.T"),
     "two rows": (np.ones((2, 500)), "points.T"),
     "an image": (np.ones((48, 64), dtype=np.uint8), "sample_mask"),
     "three dimensions": (np.ones((4, 5, 2)), "points.reshape(-1, 2)"),
@@ -130,7 +151,7 @@ SHAPES = {
 
 
 @pytest.mark.parametrize("name", SHAPES)
-def test_refuses_what_is_no_table_of_two_columns(name):
+def test_refuses_what_is_no_table_of_two_or_three_columns(name):
     points, remedy = SHAPES[name]
     with pytest.raises(CloudShapeError) as caught:
         as_cloud(points)
@@ -226,8 +247,17 @@ def test_names_the_columns_of_a_frame():
     with pytest.raises(CloudShapeError, match="not numeric: 'name'; ") as caught:
         as_cloud(frame)
     assert "df[['x', 'y']]" in str(caught.value)
-    with pytest.raises(CloudShapeError, match="got 'x', 'y', 'z'; choose"):
-        as_cloud(pandas.DataFrame({"x": [1.0], "y": [1.0], "z": [1.0]}))
+    in_space = pandas.DataFrame({"x": [1.0], "y": [2.0], "z": [3.0]})
+    assert as_cloud(in_space).points.tolist() == [[1.0, 2.0, 3.0]]
+    with pytest.raises(CloudShapeError, match="got 'x', 'y', 'z'; choose two"):
+        as_cloud(in_space, 2)
+    with pytest.raises(CloudShapeError, match="'w', 'x', 'y', 'z'; choose two"):
+        as_cloud(in_space.assign(w=1.0)[["w", "x", "y", "z"]])
+    mixed = in_space.assign(name="a")
+    with pytest.raises(
+        CloudShapeError, match=r"'name'; choose three columns: df\[\['x', 'y', 'z'\]\]"
+    ):
+        as_cloud(mixed)
     with pytest.raises(CloudShapeError, match="got 'x'; choose"):
         as_cloud(pandas.DataFrame({"x": [1.0]}))
 

@@ -19,10 +19,13 @@ if TYPE_CHECKING:
     from alphamesh import check, errors, plot
     from alphamesh.classify import SimplexKind
     from alphamesh.complex import AlphaComplex
+    from alphamesh.complex3d import AlphaComplex3D
     from alphamesh.curves import MeasureCurves, measure_curves
     from alphamesh.delaunay import Delaunay, delaunay
+    from alphamesh.delaunay3d import Delaunay3D
     from alphamesh.film import Film, animate
     from alphamesh.filtration import Filtration, filtration
+    from alphamesh.filtration3d import Filtration3D
     from alphamesh.frame import FRAME_SHAPES, Frame, FramedDelaunay, framed_delaunay
     from alphamesh.hull import ConvexHull, convex_hull
     from alphamesh.io.images import sample_mask
@@ -34,9 +37,12 @@ if TYPE_CHECKING:
     from alphamesh.queries import Nearest
     from alphamesh.radius import RadiusChoice, choose_radius
     from alphamesh.regions import Holes, Regions
+    from alphamesh.regions3d import Regions3D, Voids
     from alphamesh.restricted import RestrictedVoronoi, restricted_voronoi
     from alphamesh.sampling import DEMO_SHAPES, demo_cloud, demo_mask
     from alphamesh.shape import AlphaShape
+    from alphamesh.shape3d import AlphaShape3D
+    from alphamesh.solid import Selection3D
     from alphamesh.voronoi import ClippedVoronoi, Voronoi, voronoi
 
     __version__: str
@@ -46,12 +52,16 @@ __all__ = [
     "FRAME_SHAPES",
     "MESH_FORMATS",
     "AlphaComplex",
+    "AlphaComplex3D",
     "AlphaShape",
+    "AlphaShape3D",
     "ClippedVoronoi",
     "ConvexHull",
     "Delaunay",
+    "Delaunay3D",
     "Film",
     "Filtration",
+    "Filtration3D",
     "Frame",
     "FramedDelaunay",
     "Holes",
@@ -61,10 +71,13 @@ __all__ = [
     "Persistence",
     "RadiusChoice",
     "Regions",
+    "Regions3D",
     "RestrictedVoronoi",
     "Rings",
     "Selection",
+    "Selection3D",
     "SimplexKind",
+    "Voids",
     "Voronoi",
     "__version__",
     "animate",
@@ -91,10 +104,13 @@ _MODULES = ("check", "errors", "plot")
 _HOMES = {
     "classify": ("SimplexKind",),
     "complex": ("AlphaComplex",),
+    "complex3d": ("AlphaComplex3D",),
     "curves": ("MeasureCurves", "measure_curves"),
     "delaunay": ("Delaunay", "delaunay"),
+    "delaunay3d": ("Delaunay3D",),
     "film": ("Film", "animate"),
     "filtration": ("Filtration", "filtration"),
+    "filtration3d": ("Filtration3D",),
     "frame": ("FRAME_SHAPES", "Frame", "FramedDelaunay", "framed_delaunay"),
     "hull": ("ConvexHull", "convex_hull"),
     "io.images": ("sample_mask",),
@@ -106,9 +122,12 @@ _HOMES = {
     "queries": ("Nearest",),
     "radius": ("RadiusChoice", "choose_radius"),
     "regions": ("Holes", "Regions"),
+    "regions3d": ("Regions3D", "Voids"),
     "restricted": ("RestrictedVoronoi", "restricted_voronoi"),
     "sampling": ("DEMO_SHAPES", "demo_cloud", "demo_mask"),
     "shape": ("AlphaShape",),
+    "shape3d": ("AlphaShape3D",),
+    "solid": ("Selection3D",),
     "voronoi": ("ClippedVoronoi", "Voronoi", "voronoi"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

@@ -18,6 +18,9 @@ Array: TypeAlias = "np.ndarray[Any, np.dtype[Any]]"
 
 _MASK_HINT = "if it is a mask image, draw points from it with sample_mask(image, n)"
 _MANTISSA = 53
+_IN_WORDS = {2: "two", 3: "three"}
+_AXES = {2: "x and y", 3: "x, y and z"}
+_ANY = (2, 3)
 
 
 def path_error(path: str | bytes | os.PathLike[Any]) -> CloudShapeError:
@@ -28,23 +31,28 @@ def path_error(path: str | bytes | os.PathLike[Any]) -> CloudShapeError:
     )
 
 
-def table_of_floats(points: Any) -> FloatArray:
-    """Return a new C-contiguous ``(n, 2)`` float64 array of exactly the numbers in `points`."""
+def table_of_floats(points: Any, dimension: int | None = None) -> FloatArray:
+    """Return a new C-contiguous float64 array of exactly the numbers in `points`.
+
+    It has `dimension` columns; by default two or three.
+    """
+    allowed = _ANY if dimension is None else (dimension,)
     if isinstance(points, np.ma.MaskedArray):
         _refuse_masked(points)
         points = points.data
     if hasattr(points, "iloc") and hasattr(points, "columns"):
-        return _from_frame(points)
+        return _from_frame(points, allowed)
     try:
         array = np.array(points)
     except ValueError as error:
-        raise _ragged(points) from error
+        raise _ragged(points, allowed) from error
     if array.ndim == 0:
         raise CloudShapeError(
-            f"points must be an (n, 2) table of coordinates; got {type(points).__name__}"
+            f"points must be an {shape_text(allowed)} table of coordinates; "
+            f"got {type(points).__name__}"
         )
     _refuse_kind(array, points)
-    _refuse_shape(array)
+    _refuse_shape(array, allowed)
     return np.ascontiguousarray(_exact_floats(array))
 
 
@@ -78,7 +86,7 @@ def _refuse_kind(array: Array, source: Any) -> None:
         names = ", ".join(array.dtype.names or ())
         raise CloudShapeError(
             f"a structured array (fields {names}) is not a table of coordinates; choose two "
-            "fields: numpy.column_stack([a['x'], a['y']])"
+            "or three fields: numpy.column_stack([a['x'], a['y']])"
         )
     if kind not in "iufO":
         raise CloudShapeError(
@@ -86,39 +94,68 @@ def _refuse_kind(array: Array, source: Any) -> None:
         )
 
 
-def _refuse_shape(array: Array) -> None:
+def shape_text(allowed: tuple[int, ...]) -> str:
+    """Return ``"(n, 2) or (n, 3)"``."""
+    return " or ".join(f"(n, {columns})" for columns in allowed)
+
+
+def _columns_text(allowed: tuple[int, ...]) -> str:
+    """Return ``"two columns, x and y, or three, x, y and z"``."""
+    first, *rest = allowed
+    text = f"{_IN_WORDS[first]} columns, {_AXES[first]}"
+    return ", or ".join([text, *(f"{_IN_WORDS[k]}, {_AXES[k]}" for k in rest)])
+
+
+def _refuse_shape(array: Array, allowed: tuple[int, ...]) -> None:
     shape = array.shape
     if array.dtype.kind == "O" and len(shape) == 1 and all(_is_row(row) for row in array):
-        raise _ragged(list(array))
+        raise _ragged(list(array), allowed)
     if len(shape) != 2:
-        raise CloudShapeError(f"points must have shape (n, 2); got {shape}; {_remedy(array)}")
-    if shape[1] != 2:
         raise CloudShapeError(
-            f"points must have two columns, x and y; got shape {shape}; {_remedy(array)}"
+            f"points must have shape {shape_text(allowed)}; got {shape}; "
+            f"{_remedy(array, allowed)}"
+        )
+    if shape[1] not in allowed:
+        raise CloudShapeError(
+            f"points must have {_columns_text(allowed)}; got shape {shape}; "
+            f"{_remedy(array, allowed)}"
         )
 
 
-def _remedy(array: Array) -> str:
+def _remedy(array: Array, allowed: tuple[int, ...]) -> str:
     """Return what most likely turns an array of the wrong shape into a cloud."""
-    shape = array.shape
+    shape, columns = array.shape, allowed[0]
     if array.size == 0:
-        return "a cloud without points is numpy.empty((0, 2))"
+        return f"a cloud without points is numpy.empty((0, {columns}))"
     if len(shape) > 2:
-        return f"flatten it with points.reshape(-1, 2), or {_MASK_HINT}"
+        return f"flatten it with points.reshape(-1, {columns}), or {_MASK_HINT}"
+    names = ", ".join("xyz"[:columns])
     if len(shape) == 1 or shape[1] == 1:
-        side_by_side = "put x and y side by side with numpy.column_stack([x, y])"
-        return "one point is [[x, y]]" if shape == (2,) else side_by_side
-    if shape[1] == 3:
-        return "3D is not there yet: project the points, or choose columns with points[:, :2]"
-    if shape[0] == 2:
+        side_by_side = f"put coordinates side by side with numpy.column_stack([{names}])"
+        single = len(shape) == 1 and shape[0] in allowed
+        return f"one point is [[{', '.join('xyz'[: shape[0]])}]]" if single else side_by_side
+    if shape[1] in _ANY:
+        return _other_dimension(columns)
+    if shape[0] in allowed:
         return "its rows and columns look swapped: pass points.T"
-    return f"choose two columns with points[:, :2]; {_MASK_HINT}"
+    return f"choose {_IN_WORDS[columns]} columns with points[:, :{columns}]; {_MASK_HINT}"
 
 
-def _ragged(rows: Any) -> CloudShapeError:
+def _other_dimension(columns: int) -> str:
+    """Return what to do with points in the plane where space is meant, or the reverse."""
+    if columns == 2:
+        return "this works in the plane alone: project the points, or choose points[:, :2]"
+    return (
+        "this works in space alone: add a third column with "
+        "numpy.column_stack([points, numpy.zeros(len(points))])"
+    )
+
+
+def _ragged(rows: Any, allowed: tuple[int, ...]) -> CloudShapeError:
     """Return the error for rows of unequal length, or of a kind that NumPy cannot stack."""
     sizes = [len(row) if _is_row(row) else -1 for row in rows]
-    bad = [i for i, size in enumerate(sizes) if size != 2]
+    columns = max(allowed, key=sizes.count)
+    bad = [i for i, size in enumerate(sizes) if size != columns]
     if not bad:
         return CloudShapeError(
             "points is a list of rows that do not form a table of numbers; "
@@ -126,8 +163,8 @@ def _ragged(rows: Any) -> CloudShapeError:
         )
     first = "is a single value" if sizes[bad[0]] < 0 else f"has {sizes[bad[0]]}"
     return CloudShapeError(
-        f"every row must hold two coordinates: look at {rows_text(bad[:6], total=len(bad))} "
-        f"(row {bad[0]} {first}); drop or complete them",
+        f"every row must hold {_IN_WORDS[columns]} coordinates: look at "
+        f"{rows_text(bad[:6], total=len(bad))} (row {bad[0]} {first}); drop or complete them",
         rows=bad[:6],
     )
 
@@ -245,19 +282,21 @@ def _floats_of_objects(array: Array) -> tuple[FloatArray, Array]:
 # Tables with named columns
 
 
-def _from_frame(frame: Any) -> FloatArray:
-    """Return the two numeric columns of a pandas-like DataFrame."""
+def _from_frame(frame: Any, allowed: tuple[int, ...]) -> FloatArray:
+    """Return the numeric columns of a pandas-like DataFrame."""
     names = [str(name) for name in frame.columns]
     columns = [np.asarray(frame.iloc[:, k]) for k in range(len(names))]
     other = [name for name, column in zip(names, columns, strict=True) if not _numeric(column)]
     numeric = [name for name in names if name not in other]
-    choose = f"choose two columns: df[{(numeric if len(numeric) > 1 else ['x', 'y'])[:2]}]"
+    wanted = len(numeric) if len(numeric) in allowed else allowed[0]
+    some = (numeric if len(numeric) >= wanted else list("xyz"))[:wanted]
+    choose = f"choose {_IN_WORDS[wanted]} columns: df[{some}]"
     if other:
         listed = ", ".join(repr(name) for name in other[:5])
         raise CloudShapeError(f"columns that are not numeric: {listed}; {choose}")
-    if len(names) != 2:
+    if len(names) not in allowed:
         listed = ", ".join(repr(name) for name in names[:5])
-        raise CloudShapeError(f"a cloud has two columns, x and y; got {listed}; {choose}")
+        raise CloudShapeError(f"a cloud has {_columns_text(allowed)}; got {listed}; {choose}")
     return np.ascontiguousarray(np.column_stack([_exact_floats(column) for column in columns]))
 
 

@@ -7,14 +7,17 @@ radii are computed once, and a classification is a comparison with them.
 
 from __future__ import annotations
 
+import math
 import sys
 from dataclasses import dataclass
 from enum import IntEnum
+from numbers import Real
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
+from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
@@ -22,8 +25,10 @@ if TYPE_CHECKING:
 __all__ = [
     "Intervals",
     "SimplexKind",
+    "checked_radius",
     "chosen",
-    "edge_intervals",
+    "face_intervals",
+    "facet_intervals",
     "least_at_vertices",
     "reached",
     "vertex_intervals",
@@ -43,11 +48,11 @@ class SimplexKind(IntEnum):
     EXTERIOR = 0
     """Not in the complex."""
     SINGULAR = 1
-    """In the complex, but in none of its triangles."""
+    """In the complex, but in none of its cells: triangles, in space tetrahedra."""
     REGULAR = 2
-    """On the boundary of the triangles of the complex."""
+    """On the boundary of the cells of the complex."""
     INTERIOR = 3
-    """Inside: surrounded by triangles of the complex; so is each of these."""
+    """Inside: surrounded by cells of the complex; so is each of these."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,8 +62,9 @@ class Intervals(Record):
     Attributes
     ----------
     singular_from, regular_from, interior_from : (m,) float64
-        The filtration value; the least and the greatest value of the triangles that the
-        simplex belongs to. Infinity means never, as ``interior_from`` on the hull.
+        The filtration value; the least and the greatest value of the cells that the
+        simplex belongs to: triangles, in space tetrahedra. Infinity means never, as
+        ``interior_from`` on the hull.
     """
 
     singular_from: FloatArray
@@ -79,24 +85,42 @@ def reached(since: FloatArray, radius: float) -> BoolArray:
     return since <= min(radius, sys.float_info.max)
 
 
-def edge_intervals(
-    radii: FloatArray, edge_triangles: IntArray, triangle_radii: FloatArray
-) -> Intervals:
-    """Return the intervals of edges.
+def checked_radius(radius: object) -> float:
+    """Return `radius` as a float of at least 0.
+
+    Raises
+    ------
+    ParameterError
+        If it is not a number, negative or NaN.
+    """
+    if not isinstance(radius, Real):
+        raise ParameterError(
+            f"radius must be a number in the units of the points; got {radius!r}"
+        )
+    value = float(radius)
+    if math.isnan(value) or value < 0:
+        raise ParameterError(
+            f"radius must be 0 or more (infinity for the whole triangulation); got {value}"
+        )
+    return value
+
+
+def facet_intervals(radii: FloatArray, cofaces: IntArray, cell_radii: FloatArray) -> Intervals:
+    """Return the intervals of facets: edges in the plane, triangles in space.
 
     Parameters
     ----------
-    radii : (E,) float64
-    edge_triangles : (E, 2) int32
-        Rows of triangles, -1 for none.
-    triangle_radii : (T,) float64
+    radii : (m,) float64
+    cofaces : (m, 2) int32
+        Rows of cells, -1 for none.
+    cell_radii : (k,) float64
     """
-    # Row -1, no triangle, reads the last entry: never.
-    values = np.append(triangle_radii, np.inf)
+    # Row -1, no cell, reads the last entry: never.
+    values = np.append(cell_radii, np.inf)
     least, greatest = np.empty(len(radii)), np.empty(len(radii))
     for start in range(0, len(radii), _CHUNK):
         part = slice(start, start + _CHUNK)
-        first, second = values.take(edge_triangles[part]).T
+        first, second = values.take(cofaces[part]).T
         np.minimum(first, second, out=least[part])
         np.maximum(first, second, out=greatest[part])
     return Intervals(radii, read_only(least), read_only(greatest))
@@ -105,7 +129,7 @@ def edge_intervals(
 def vertex_intervals(
     vertices: IntArray, triangles: IntArray, triangle_radii: FloatArray, hull_edges: IntArray
 ) -> Intervals:
-    """Return the intervals of vertices.
+    """Return the intervals of vertices in the plane.
 
     Parameters
     ----------
@@ -124,6 +148,27 @@ def vertex_intervals(
     greatest = greatest.take(vertices)
     greatest[least == np.inf] = np.inf
     return Intervals(read_only(np.zeros(len(vertices))), least, read_only(greatest))
+
+
+def face_intervals(radii: FloatArray, faces: IntArray, above: Intervals) -> Intervals:
+    """Return the intervals of simplices, given those of the simplices one dimension up.
+
+    Each cell around a simplex is a cell around one of its cofaces.
+
+    Parameters
+    ----------
+    radii : (m,) float64
+    faces : (k, d) int32
+        Of each coface, the numbers of its faces.
+    above : Intervals
+        Those of the k cofaces.
+    """
+    least, greatest = np.full(len(radii), np.inf), np.full(len(radii), -np.inf)
+    for column in faces.T:
+        np.minimum.at(least, column, above.regular_from)
+        np.maximum.at(greatest, column, above.interior_from)
+    greatest[greatest < 0] = np.inf  # no coface at all
+    return Intervals(radii, read_only(least), read_only(greatest))
 
 
 def least_at_vertices(vertices: IntArray, simplices: IntArray, radii: FloatArray) -> FloatArray:

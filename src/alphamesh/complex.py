@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
 from alphamesh._arrays import read_only
 from alphamesh.curves import MeasureCurves, measure_curves
-from alphamesh.filtration import filtration as build_filtration
+from alphamesh.filtration import filtration_in_plane
 from alphamesh.hull import ConvexHull
 from alphamesh.hull import convex_hull as find_convex_hull
 from alphamesh.persistence import Persistence
 from alphamesh.persistence import persistence as find_persistence
-from alphamesh.points import Cloud
-from alphamesh.radius import DEFAULT_RULE, RadiusChoice, choose_radius
+from alphamesh.points import Cloud, as_cloud
+from alphamesh.radius import RadiusChoice, choose_radius
 from alphamesh.restricted import RestrictedVoronoi, restricted_voronoi
 from alphamesh.shape import AlphaShape
 from alphamesh.voronoi import Voronoi, voronoi_of
@@ -39,9 +39,10 @@ class AlphaComplex:
 
     Parameters
     ----------
-    points : array-like of shape (n, 2)
-        Arrays, lists, DataFrames of two numeric columns; copied. Duplicates are merged.
-        Any number of points is legal: none, one, all on one line.
+    points : array-like of shape (n, 2) or (n, 3)
+        Arrays, lists, DataFrames of two or three numeric columns; copied. Duplicates are
+        merged. Any number of points is legal: none, one, all on one line. Three columns
+        give an :class:`~alphamesh.AlphaComplex3D`.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
         on it.
@@ -72,13 +73,27 @@ class AlphaComplex:
 
     __slots__ = ("__weakref__", "_filtration", "_hull", "_persistence", "_voronoi")
 
-    def __init__(
-        self, points: Any, *, threads: int | None = None, progress: Progress | None = None
-    ) -> None:
-        self._filtration = build_filtration(points, threads=threads, progress=progress)
-        self._persistence: Persistence | None = None
-        self._hull: ConvexHull | None = None
-        self._voronoi: Voronoi | None = None
+    _filtration: Filtration
+    _persistence: Persistence | None
+    _hull: ConvexHull | None
+    _voronoi: Voronoi | None
+
+    def __new__(
+        cls, points: Any, *, threads: int | None = None, progress: Progress | None = None
+    ) -> Self:
+        """Return an :class:`~alphamesh.AlphaComplex3D` if the points have three columns."""
+        cloud = as_cloud(points)
+        kind: Any = cls
+        if cls is AlphaComplex and cloud.points.shape[1] == 3:
+            from alphamesh.complex3d import AlphaComplex3D
+
+            kind = AlphaComplex3D
+        made: Self = _from_filtration(kind, kind._built(cloud, threads, progress))
+        return made
+
+    @staticmethod
+    def _built(points: Any, threads: int | None, progress: Progress | None) -> Any:
+        return filtration_in_plane(points, threads=threads, progress=progress)
 
     @property
     def filtration(self) -> Filtration:
@@ -163,7 +178,7 @@ class AlphaComplex:
             )
         return self._persistence
 
-    def choose_radius(self, rule: str = DEFAULT_RULE, **options: Any) -> RadiusChoice:
+    def choose_radius(self, rule: str | None = None, **options: Any) -> RadiusChoice:
         """Choose a radius, and say why.
 
         Parameters and errors are those of :func:`alphamesh.choose_radius`.
@@ -245,9 +260,9 @@ class AlphaComplex:
         return _from_filtration, (type(self), self._filtration)
 
 
-def _from_filtration(kind: type[AlphaComplex], filtration: Filtration) -> AlphaComplex:
+def _from_filtration(kind: type[Any], filtration: Filtration) -> Any:
     """Return the complex that has `filtration`, without computing it again."""
-    made = kind.__new__(kind)
+    made = object.__new__(kind)
     made._filtration = filtration
     made._persistence = None
     made._hull = None

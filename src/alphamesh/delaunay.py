@@ -96,7 +96,7 @@ class Delaunay(Record):
         ParameterError
             If `threads` is not what it must be.
         """
-        wanted = as_cloud(queries).points
+        wanted = as_cloud(queries, 2).points
         arrays = self.points, self.triangles, self.neighbors
         try:
             return locate2(*arrays, wanted, threads)
@@ -167,7 +167,7 @@ def delaunay(
     ParameterError
         If `threads` or `progress` is not what it must be.
     """
-    cloud = as_cloud(points)
+    cloud = as_cloud(points, 2)
     try:
         result = _kernels.delaunay2(cloud.points, threads, progress)
     except _kernels.BadCoordinates:

@@ -11,6 +11,7 @@ __all__ = [
     "CloudShapeError",
     "CloudTooLargeError",
     "CoordinateRangeError",
+    "DimensionError",
     "EmptyCloudError",
     "EmptyMaskError",
     "FileReadError",
@@ -55,7 +56,7 @@ class CloudError(AlphameshError, ValueError):
 
 
 class CloudShapeError(CloudError):
-    """The input is not an ``(n, 2)`` array of real numbers."""
+    """The input is not an ``(n, 2)`` or ``(n, 3)`` array of real numbers."""
 
 
 class NonFiniteError(CloudError):
@@ -80,6 +81,10 @@ class EmptyMaskError(CloudError):
 
 class ParameterError(AlphameshError, ValueError):
     """A parameter outside the values that it can take."""
+
+
+class DimensionError(AlphameshError, TypeError):
+    """Something that clouds in the plane have, asked of a cloud in space."""
 
 
 class FileReadError(AlphameshError, OSError):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -13,20 +13,20 @@ from alphamesh._arrays import Record, read_only
 from alphamesh.classify import (
     Intervals,
     chosen,
-    edge_intervals,
+    facet_intervals,
     least_at_vertices,
     vertex_intervals,
 )
 from alphamesh.delaunay import Delaunay
-from alphamesh.errors import CoordinateRangeError
+from alphamesh.filtration3d import Filtration3D, filtration_in_space
 from alphamesh.measures import scaled_points, triangle_areas
-from alphamesh.points import as_cloud, coordinate_error
+from alphamesh.points import as_cloud, coordinate_error, merged_rows, refuse_overflow
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
 
-__all__ = ["Filtration", "filtration"]
+__all__ = ["AnyFiltration", "Filtration", "filtration", "filtration_in_plane"]
 
 # Triangles worked on at a time: their coordinates stay in the processor's cache.
 _CHUNK = 1 << 15
@@ -91,6 +91,11 @@ class Filtration(Record):
         """The area of each triangle, ``(T,)`` float64."""
         return read_only(triangle_areas(self.points, self.simplices[2]))
 
+    @property
+    def cell_sizes(self) -> FloatArray:
+        """How large the cells are, which are the triangles: their areas."""
+        return self.triangle_areas
+
     @cached_property
     def vertex_intervals(self) -> Intervals:
         """The radii at which the vertices become singular, regular and interior."""
@@ -102,7 +107,7 @@ class Filtration(Record):
     @cached_property
     def edge_intervals(self) -> Intervals:
         """The radii at which the edges become singular, regular and interior."""
-        return edge_intervals(self.radii[1], self.edge_triangles, self.radii[2])
+        return facet_intervals(self.radii[1], self.edge_triangles, self.radii[2])
 
     @cached_property
     def triangle_edges(self) -> IntArray:
@@ -168,14 +173,18 @@ class Filtration(Record):
         return f"<Filtration: {vertices} vertices, {edges} edges, {triangles} triangles>"
 
 
+#: What :func:`filtration` returns.
+AnyFiltration: TypeAlias = Filtration | Filtration3D
+
+
 def filtration(
     points: Any, *, threads: int | None = None, progress: Progress | None = None
-) -> Filtration:
+) -> AnyFiltration:
     """Compute the alpha filtration of a cloud; every decision is exact.
 
     Parameters
     ----------
-    points : array-like of shape (n, 2)
+    points : array-like of shape (n, 2) or (n, 3)
         See :func:`alphamesh.points.as_cloud`. Duplicates are merged.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
@@ -185,7 +194,8 @@ def filtration(
 
     Returns
     -------
-    Filtration
+    Filtration or Filtration3D
+        Points with two columns lie in the plane, those with three in space.
 
     Raises
     ------
@@ -195,21 +205,27 @@ def filtration(
         If `threads` or `progress` is not what it must be.
     """
     cloud = as_cloud(points)
+    if cloud.points.shape[1] == 3:
+        return filtration_in_space(cloud, threads=threads, progress=progress)
+    return filtration_in_plane(cloud, threads=threads, progress=progress)
+
+
+def filtration_in_plane(
+    points: Any, *, threads: int | None = None, progress: Progress | None = None
+) -> Filtration:
+    """Compute the alpha filtration of a cloud in the plane; see :func:`filtration`."""
+    cloud = as_cloud(points, 2)
     try:
         result = _kernels.alpha2(cloud.points, threads, progress)
     except _kernels.BadCoordinates:
         raise coordinate_error(cloud.points) from None
-    representative, triangles, triangle_radii, edges, edge_radii, edge_triangles = result
+    merged, triangles, triangle_radii, edges, edge_radii, edge_triangles = result
     # No edge has a larger value than the triangles that it belongs to.
     if len(triangles):
-        _refuse_overflow(triangles, triangle_radii)
+        refuse_overflow(triangles, triangle_radii)
     else:
-        _refuse_overflow(edges, edge_radii)
-    if representative is None:
-        representative = read_only(np.arange(len(cloud.points), dtype=np.int32))
-        vertices = representative
-    else:
-        vertices = _distinct(representative)
+        refuse_overflow(edges, edge_radii)
+    representative, vertices = merged_rows(merged, len(cloud))
     return Filtration(
         cloud.points,
         representative,
@@ -217,25 +233,6 @@ def filtration(
         (read_only(np.zeros(len(vertices))), edge_radii, triangle_radii),
         edge_triangles,
     )
-
-
-def _distinct(representative: IntArray) -> IntArray:
-    """Return the rows that stand for themselves."""
-    rows = np.arange(len(representative), dtype=np.int32)
-    return read_only(rows[representative == rows])
-
-
-def _refuse_overflow(simplices: IntArray, radii: FloatArray) -> None:
-    """Refuse values beyond float64: circles through nearly collinear, far-apart points."""
-    if len(radii) and np.maximum.reduce(radii) == np.inf:
-        rows = simplices[int(np.argmax(radii))]
-        listed = ", ".join(str(row) for row in rows)
-        raise CoordinateRangeError(
-            f"the circle through rows {listed} is too large for float64: the points are nearly "
-            "on one line and far from one another; scale the coordinates down, for example "
-            "points * 2.0**-600",
-            rows=rows,
-        )
 
 
 def _delaunay_of(filtration: Filtration) -> Delaunay:

@@ -198,7 +198,7 @@ def framed_delaunay(
         raise ParameterError(
             f"frame must be an alphamesh.Frame, such as Frame('circle'); got {given!r}"
         )
-    cloud = as_cloud(points)
+    cloud = as_cloud(points, 2)
     count = len(cloud)
     frame_points = frame.around(cloud)
     everything = np.concatenate((cloud.points, frame_points))

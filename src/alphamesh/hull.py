@@ -115,7 +115,7 @@ def convex_hull(points: Any, *, collinear: bool = False) -> ConvexHull:
         raise ParameterError(
             f"collinear must be True or False (keep points between corners?); got {collinear!r}"
         )
-    cloud = as_cloud(points)
+    cloud = as_cloud(points, 2)
     try:
         ring = hull2(cloud.points, collinear=bool(collinear))
     except _kernels.BadCoordinates:

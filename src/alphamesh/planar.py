@@ -11,8 +11,8 @@ import numpy as np
 
 from alphamesh._arrays import read_only
 from alphamesh.classify import SimplexKind
-from alphamesh.errors import ParameterError
 from alphamesh.outline import Rings, outline
+from alphamesh.parts import Parts, as_cell_mask, chosen_regions, labelled, large_regions
 from alphamesh.queries import (
     EdgeTree,
     Nearest,
@@ -23,13 +23,10 @@ from alphamesh.queries import (
 )
 from alphamesh.regions import (
     Holes,
-    Parts,
     Regions,
     find_holes,
     find_parts,
     find_regions,
-    labelled,
-    large_regions,
     without_holes,
 )
 from alphamesh.simplices import SimplexSet
@@ -188,7 +185,8 @@ class PlanarShape(SimplexSet):
             or more.
         """
         parts = without_holes(self.filtration, self._has_triangle, self._parts, max_hole_area)
-        kept = large_regions(parts, min_region_area, keep_largest)
+        sizes = parts.region_sizes
+        kept = large_regions(sizes, "min_region_area", min_region_area, keep_largest)
         return Selection(self.filtration, self.radius, labelled(parts.labels, kept))
 
     def select(self, regions: Any) -> Selection:
@@ -215,20 +213,7 @@ class PlanarShape(SimplexSet):
         >>> shape.select(shape.regions.hole_counts > 0).area <= shape.area
         True
         """
-        chosen = np.asarray(regions)
-        count = len(self._parts.region_areas)
-        if chosen.dtype == bool and chosen.shape == (count,):
-            kept = chosen
-        elif chosen.size == 0 or (
-            chosen.dtype.kind in "iu" and 0 <= chosen.min() <= chosen.max() < count
-        ):
-            kept = np.zeros(count, dtype=bool)
-            kept[chosen.astype(np.intp)] = True
-        else:
-            raise ParameterError(
-                f"regions must be numbers from 0 to {count - 1}, or {count} truth values; "
-                f"got {regions!r}"
-            )
+        kept = chosen_regions(regions, len(self._parts.region_sizes))
         return Selection(self.filtration, self.radius, labelled(self._parts.labels, kept))
 
     # Queries
@@ -342,14 +327,9 @@ class Selection(PlanarShape):
     has_triangle: BoolArray
 
     def __post_init__(self) -> None:
-        given, wanted = np.asarray(self.has_triangle), len(self.filtration.simplices[2])
-        if given.dtype != bool or given.shape != (wanted,):
-            raise ParameterError(
-                f"has_triangle must be {wanted:,} truth values, one for each triangle of the "
-                f"filtration; got {given.dtype} of shape {given.shape}"
-            )
-        if given.flags.writeable:
-            object.__setattr__(self, "has_triangle", read_only(given.copy()))
+        count = len(self.filtration.simplices[2])
+        mask = as_cell_mask("has_triangle", self.has_triangle, count)
+        object.__setattr__(self, "has_triangle", mask)
 
     @property
     def _has_triangle(self) -> BoolArray:

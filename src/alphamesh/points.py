@@ -17,24 +17,25 @@ from alphamesh._arrays import Record, read_only
 from alphamesh.errors import CloudError, CoordinateRangeError, NonFiniteError, rows_text
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import FloatArray
+    from alphamesh._arrays import FloatArray, IntArray
 
-__all__ = ["Cloud", "as_cloud", "coordinate_error"]
+__all__ = ["Cloud", "as_cloud", "coordinate_error", "merged_rows", "refuse_overflow"]
 
 _FLOAT64 = np.dtype(np.float64)
 
-# The core's exact sums reach from the square of the largest coordinate down to the square
-# of the last binary digit of the smallest one; this many binary digits fit in between.
-_EXPONENT_RANGE = 490
+# The core's exact sums reach from a power of the largest coordinate, higher in space, down
+# to that power of the last binary digit of the smallest one; so many binary digits fit in
+# between.
+_EXPONENT_RANGES = {2: 490, 3: 325}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cloud(Record):
-    """Points in the plane, ready for the core.
+    """Points in the plane or in space, ready for the core.
 
     Attributes
     ----------
-    points : (n, 2) float64
+    points : (n, 2) or (n, 3) float64
         Read-only, C-contiguous and nobody else's: row i is point i everywhere.
         Whether all numbers are finite is seen by the core, which reads them anyway.
     """
@@ -45,14 +46,17 @@ class Cloud(Record):
         return len(self.points)
 
 
-def as_cloud(points: Any) -> Cloud:
+def as_cloud(points: Any, dimension: int | None = None) -> Cloud:
     """Return `points` as a cloud: a private copy, so that later changes do not reach it.
 
     Parameters
     ----------
-    points : array-like of shape (n, 2), DataFrame of two numeric columns, or Cloud
+    points : array-like of shape (n, 2) or (n, 3), DataFrame of so many columns, or Cloud
         Anything that NumPy understands as real numbers: integers, floats of any size,
-        lists, objects with ``__array__``. No point at all is ``numpy.empty((0, 2))``.
+        lists, objects with ``__array__``. No point at all is ``numpy.empty((0, 2))`` in
+        the plane and ``numpy.empty((0, 3))`` in space.
+    dimension : {2, 3}, optional
+        Take clouds of so many columns alone; by default, both.
 
     Returns
     -------
@@ -61,19 +65,22 @@ def as_cloud(points: Any) -> Cloud:
     Raises
     ------
     CloudShapeError
-        If it is not an ``(n, 2)`` table of real numbers: another shape, rows of unequal
-        length, text, missing values, complex numbers.
+        If it is not such a table of real numbers: another shape, rows of unequal length,
+        text, missing values, complex numbers.
     CoordinateRangeError
         If a number cannot be held exactly, such as the integer ``2**53 + 1``.
     """
+    allowed = (2, 3) if dimension is None else (dimension,)
     if type(points) is np.ndarray and points.dtype == _FLOAT64:
-        if points.ndim == 2 and points.shape[1] == 2:
+        if points.ndim == 2 and points.shape[1] in allowed:
             return Cloud(read_only(np.array(points, order="C")))
     elif isinstance(points, Cloud):
-        return points
+        if points.points.shape[1] in allowed:
+            return points
+        points = points.points
     elif isinstance(points, str | bytes | os.PathLike):
         raise _coercion.path_error(points)
-    return Cloud(read_only(_coercion.table_of_floats(points)))
+    return Cloud(read_only(_coercion.table_of_floats(points, dimension)))
 
 
 def coordinate_error(points: FloatArray) -> CloudError:
@@ -81,7 +88,7 @@ def coordinate_error(points: FloatArray) -> CloudError:
 
     Parameters
     ----------
-    points : (n, 2) float64
+    points : (n, 2) or (n, 3) float64
 
     Returns
     -------
@@ -97,14 +104,49 @@ def coordinate_error(points: FloatArray) -> CloudError:
     return _range_error(points)
 
 
+def merged_rows(representative: IntArray | None, count: int) -> tuple[IntArray, IntArray]:
+    """Return the representative of each row, and the rows that stand for themselves.
+
+    Parameters
+    ----------
+    representative : (n,) int32 or None
+        From the core; None if all points are distinct.
+    count : int
+    """
+    rows = read_only(np.arange(count, dtype=np.int32))
+    if representative is None:
+        return rows, rows
+    return representative, read_only(rows[representative == rows])
+
+
+_ROUND = {
+    2: ("segment between", "far from one another"),
+    3: ("circle through", "nearly on one line and far from one another"),
+    4: ("sphere through", "nearly in one plane and far from one another"),
+}
+
+
+def refuse_overflow(simplices: IntArray, radii: FloatArray) -> None:
+    """Refuse values beyond float64: those of nearly flat simplices of far-apart points."""
+    if len(radii) and np.maximum.reduce(radii) == np.inf:
+        rows = simplices[int(np.argmax(radii))]
+        listed = ", ".join(str(row) for row in rows)
+        figure, fault = _ROUND[len(rows)]
+        raise CoordinateRangeError(
+            f"the {figure} rows {listed} is too large for float64: the points are {fault}; "
+            "scale the coordinates down, for example points * 2.0**-600",
+            rows=rows,
+        )
+
+
 def _range_error(points: FloatArray) -> CoordinateRangeError:
     """Name the rows that are too small beside the others, or too large if these are fewer."""
-    sizes = np.abs(points)
+    sizes, digits = np.abs(points), _EXPONENT_RANGES[points.shape[1]]
     used = sizes > 0
     first = np.where(used, np.frexp(sizes)[1], np.iinfo(np.int32).min)
     last = np.where(used, _last_digit(sizes), np.iinfo(np.int32).max)
-    tiny = np.flatnonzero((int(first.max()) - last > _EXPONENT_RANGE).any(axis=1))
-    huge = np.flatnonzero((first - int(last.min()) > _EXPONENT_RANGE).any(axis=1))
+    tiny = np.flatnonzero((int(first.max()) - last > digits).any(axis=1))
+    huge = np.flatnonzero((first - int(last.min()) > digits).any(axis=1))
     largest = float(sizes.max())
     if len(huge) < len(tiny):
         return CoordinateRangeError(
@@ -115,7 +157,7 @@ def _range_error(points: FloatArray) -> CoordinateRangeError:
             rows=huge[:6],
         )
     # Any number of at least this size has all of its 53 digits within the range.
-    safe = float(np.ldexp(largest, 53 - _EXPONENT_RANGE))
+    safe = float(np.ldexp(largest, 53 - digits))
     return CoordinateRangeError(
         "coordinates too far apart in scale for exact arithmetic: too small in "
         f"{rows_text(tiny[:6], total=len(tiny))} of {len(points):,}, beside {largest:.6g}; "

@@ -82,7 +82,7 @@ def as_queries(queries: Any) -> FloatArray:
     CloudShapeError, NonFiniteError
         If they are not; the message names the rows.
     """
-    table = as_cloud(queries).points
+    table = as_cloud(queries, 2).points
     if not np.isfinite(table).all():
         raise coordinate_error(table)
     return table

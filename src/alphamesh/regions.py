@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.outlines import parts2
-from alphamesh.errors import ParameterError
-from alphamesh.measures import kernel_points, scaled_points, triangle_areas
+from alphamesh.measures import kernel_points, triangle_areas
 from alphamesh.outline import Rings, outline
+from alphamesh.parts import (
+    Parts,
+    centroids,
+    labelled,
+    ranked_parts,
+    ranks,
+    require_size,
+    totals,
+)
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray
@@ -20,48 +27,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Holes",
-    "Parts",
     "Regions",
     "find_holes",
     "find_parts",
     "find_regions",
-    "labelled",
-    "large_regions",
     "without_holes",
 ]
-
-_FIRST_HOLE = -2
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Parts(Record):
-    """The plane, divided by a set of triangles into regions, holes and the outside.
-
-    Attributes
-    ----------
-    filtration : Filtration
-    labels : (T,) int32
-        Of each triangle of the filtration: the number of its region, the largest first;
-        -1 outside, where a way leads to infinity; ``-2 - h`` in hole h.
-    """
-
-    filtration: Filtration
-    labels: IntArray
-
-    @cached_property
-    def region_areas(self) -> FloatArray:
-        """In squared units of the points, ``(r,)`` float64, descending."""
-        return read_only(_sums(self.labels, self.filtration.triangle_areas))
-
-    @cached_property
-    def hole_areas(self) -> FloatArray:
-        """In squared units of the points, ``(h,)`` float64, in no particular order."""
-        return read_only(_sums(self.holes, self.filtration.triangle_areas))
-
-    @cached_property
-    def holes(self) -> IntArray:
-        """Number of the hole that each triangle lies in, below zero for none, int32."""
-        return read_only(np.maximum(_FIRST_HOLE - self.labels, -1))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -159,34 +130,7 @@ def find_parts(filtration: Filtration, has_triangle: BoolArray) -> Parts:
     _, edges, triangles = filtration.simplices
     points, _ = kernel_points(filtration.points)
     found = parts2(points, triangles, edges, filtration.edge_triangles, has_triangle)
-    parts = Parts(filtration, found)
-    if found.max(initial=-1) <= 0:
-        return parts
-    # New numbers by size; those below zero stay.
-    ranks = _ranks(parts.region_areas)
-    known = found >= 0
-    labels = found.copy()
-    labels[known] = ranks.take(found.compress(known))
-    return Parts(filtration, read_only(labels))
-
-
-def _ranks(areas: FloatArray) -> IntArray:
-    """Return the place of each area in descending order; equal ones keep their order."""
-    ranks = np.empty(len(areas), dtype=np.int32)
-    ranks[np.argsort(-areas, kind="stable")] = np.arange(len(areas))
-    return ranks
-
-
-def _sums(labels: IntArray, values: FloatArray) -> FloatArray:
-    """Return the sum of the values of each label; those below zero do not count."""
-    used = labels >= 0
-    return _totals(labels.compress(used), values.compress(used), 0)
-
-
-def _totals(labels: IntArray, values: FloatArray, count: int) -> FloatArray:
-    """Return the sum of the values of each label, of which there are `count` or more."""
-    with np.errstate(over="ignore"):
-        return np.asarray(np.bincount(labels, values, count), dtype=np.float64)
+    return ranked_parts(filtration, found)
 
 
 def find_regions(filtration: Filtration, parts: Parts, rings: Rings) -> Regions:
@@ -202,15 +146,17 @@ def find_regions(filtration: Filtration, parts: Parts, rings: Rings) -> Regions:
     inside = parts.labels >= 0
     labels = read_only(parts.labels.compress(inside))
     triangles = filtration.simplices[2].compress(inside, axis=0)
-    perimeters = _totals(rings.regions, rings.lengths, len(parts.region_areas))
+    areas = parts.region_sizes
+    perimeters = totals(rings.regions, rings.lengths, len(areas))
+    sizes = filtration.triangle_areas.compress(inside)
     return Regions(
         labels,
         _vertex_labels(filtration, triangles, labels, rings),
-        parts.region_areas,
+        areas,
         read_only(perimeters),
-        _centroids(filtration, inside, labels, len(parts.region_areas)),
+        centroids(filtration.points, triangles, labels, sizes, triangle_areas),
         read_only(np.diff(rings.region_offsets) - 1),
-        read_only(np.bincount(labels, minlength=len(parts.region_areas))),
+        read_only(np.bincount(labels, minlength=len(areas))),
     )
 
 
@@ -226,44 +172,18 @@ def _vertex_labels(
     return read_only(lowest.take(filtration.representative))
 
 
-def _centroids(
-    filtration: Filtration, inside: BoolArray, labels: IntArray, count: int
-) -> FloatArray:
-    """Return the centre of area of each region."""
-    points, exponent = scaled_points(filtration.points)
-    triangles = filtration.simplices[2].compress(inside, axis=0)
-    if exponent == 0:
-        weights = filtration.triangle_areas.compress(inside)
-    else:
-        weights = triangle_areas(points, triangles)
-    total = _totals(labels, weights, count)
-    flat = total == 0  # too thin for float64: any inner point is as good
-    if flat.any():
-        weights[flat.take(labels)] = 1.0
-        total = _totals(labels, weights, count)
-    # Seen from a corner of the region, little cancels far from the origin.
-    origin = np.empty(count, dtype=np.int32)
-    origin[labels] = triangles[:, 0]
-    centroids = points.take(origin, axis=0)
-    start = centroids.take(labels, axis=0)
-    middle = (points.take(triangles, axis=0) - start[:, np.newaxis]).sum(axis=1) / 3
-    shares = weights / total.take(labels)
-    for axis in (0, 1):
-        centroids[:, axis] += _totals(labels, shares * middle[:, axis], count)
-    return read_only(np.ldexp(centroids, exponent))
-
-
 def find_holes(filtration: Filtration, parts: Parts, rings: Rings) -> Holes:
     """Measure the holes of a set of triangles, and find the regions around them.
 
     Parameters are those of :func:`find_regions`.
     """
-    ranks = _ranks(parts.hole_areas)
+    places = ranks(parts.enclosed_sizes)
     # Row -1 reads the last entry.
-    around = outline(filtration, np.append(ranks, np.int32(-1)).take(parts.holes, mode="wrap"))
-    areas = np.empty(len(ranks))
-    areas[ranks] = parts.hole_areas
-    perimeters = _totals(around.regions, around.lengths, len(ranks))
+    labels = np.append(places, np.int32(-1)).take(parts.enclosed, mode="wrap")
+    around = outline(filtration, labels)
+    areas = np.empty(len(places))
+    areas[places] = parts.enclosed_sizes
+    perimeters = totals(around.regions, around.lengths, len(places))
     return Holes(read_only(areas), read_only(perimeters), _surrounding(around, rings), around)
 
 
@@ -286,15 +206,6 @@ def _surrounding(around: Rings, rings: Rings) -> IntArray:
     return read_only(np.maximum.reduceat(met, np.append(0, np.cumsum(sizes)[:-1])))
 
 
-# ---------------------------------------------------------------------- choosing
-
-
-def labelled(labels: IntArray, kept: BoolArray) -> BoolArray:
-    """Return which triangles have a label that is kept; those below zero never are."""
-    # Row -1 reads the last entry.
-    return read_only(np.append(kept, False).take(np.maximum(labels, -1), mode="wrap"))
-
-
 def without_holes(
     filtration: Filtration, has_triangle: BoolArray, parts: Parts, max_area: float
 ) -> Parts:
@@ -313,37 +224,8 @@ def without_holes(
     ParameterError
         If `max_area` is negative or NaN.
     """
-    _require_area("max_hole_area", max_area)
-    small = parts.hole_areas <= max_area
+    require_size("max_hole_area", max_area)
+    small = parts.enclosed_sizes <= max_area
     if max_area == 0 or not small.any():
         return parts
-    return find_parts(filtration, has_triangle | labelled(parts.holes, small))
-
-
-def large_regions(parts: Parts, min_area: float, most: int | None) -> BoolArray:
-    """Return the regions of at least `min_area`, at most so many, ``(r,)`` bool.
-
-    Raises
-    ------
-    ParameterError
-        If `min_area` is negative or NaN, or `most` not a whole number of 0 or more.
-    """
-    _require_area("min_region_area", min_area)
-    given: Any = most
-    if given is not None and (
-        not isinstance(given, int | np.integer) or isinstance(given, bool) or given < 0
-    ):
-        raise ParameterError(
-            f"keep_largest must be a whole number of 0 or more, or None; got {most!r}"
-        )
-    large = parts.region_areas >= min_area
-    if most is not None:
-        large[most:] = False
-    return large
-
-
-def _require_area(name: str, area: float) -> None:
-    if not area >= 0:
-        raise ParameterError(
-            f"{name} must be 0 or more, in squared units of the points; got {area!r}"
-        )
+    return find_parts(filtration, has_triangle | labelled(parts.enclosed, small))

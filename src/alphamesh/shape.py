@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Real
 from typing import TYPE_CHECKING
 
 from alphamesh._arrays import read_only
-from alphamesh.classify import chosen, reached
-from alphamesh.errors import ParameterError
+from alphamesh.classify import checked_radius, chosen, reached
 from alphamesh.planar import PlanarShape
 
 if TYPE_CHECKING:
@@ -47,7 +44,7 @@ class AlphaShape(PlanarShape):
     """
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", _checked(self.radius))
+        object.__setattr__(self, "radius", checked_radius(self.radius))
 
     @cached_property
     def _vertex_kinds(self) -> KindArray:
@@ -78,17 +75,3 @@ class AlphaShape(PlanarShape):
         ]
         facts = [f"{counts[kind]:,} {kind.replace('_', ' ')}" for kind in kinds]
         return f"<AlphaShape at radius {self.radius:.6g}: {', '.join(facts)}>"
-
-
-def _checked(radius: object) -> float:
-    """Return `radius` as a float, or say what is wrong with it."""
-    if not isinstance(radius, Real):
-        raise ParameterError(
-            f"radius must be a number in the units of the points; got {radius!r}"
-        )
-    value = float(radius)
-    if math.isnan(value) or value < 0:
-        raise ParameterError(
-            f"radius must be 0 or more (infinity for the whole triangulation); got {value}"
-        )
-    return value

@@ -11,8 +11,7 @@ import numpy as np
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.cells import restricted2, rings2, voronoi_vertices2
 from alphamesh.clip import ClippedVoronoi, lines_in_box
-from alphamesh.filtration import Filtration
-from alphamesh.filtration import filtration as build_filtration
+from alphamesh.filtration import Filtration, filtration_in_plane
 from alphamesh.measures import kernel_points
 from alphamesh.region import as_box, cut_cells
 
@@ -231,7 +230,7 @@ def voronoi(
     ParameterError
         If `threads` or `progress` is not what it must be.
     """
-    built = build_filtration(points, threads=threads, progress=progress)
+    built = filtration_in_plane(points, threads=threads, progress=progress)
     return voronoi_of(built, threads=threads)
 
 

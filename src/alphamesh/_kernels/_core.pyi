@@ -125,4 +125,35 @@ def nearest2(
 def orient2(corners: NDArray[np.float64]) -> NDArray[np.int8]: ...
 def incircle2(corners: NDArray[np.float64], perturb: bool) -> NDArray[np.int8]: ...
 def dot2(corners: NDArray[np.float64]) -> NDArray[np.int8]: ...
+def alpha3(
+    points: NDArray[np.float64],
+    threads: int,
+    progress: Callable[[float], object] | None,
+) -> tuple[
+    int,
+    NDArray[np.int32] | None,
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.float64],
+]: ...
+def tetrahedron_triangles3(
+    tetrahedra: NDArray[np.int32],
+    triangles: NDArray[np.int32],
+    triangle_tetrahedra: NDArray[np.int32],
+    threads: int,
+) -> NDArray[np.int32]: ...
+def triangle_edges3(
+    n: int, triangles: NDArray[np.int32], edges: NDArray[np.int32], threads: int
+) -> NDArray[np.int32]: ...
+def parts3(
+    triangle_tetrahedra: NDArray[np.int32],
+    inside: NDArray[np.bool_],
+    wall: NDArray[np.bool_],
+) -> NDArray[np.int32]: ...
+def orient3(corners: NDArray[np.float64]) -> NDArray[np.int8]: ...
+def insphere3(corners: NDArray[np.float64], perturb: bool) -> NDArray[np.int8]: ...
 def self_test() -> str: ...

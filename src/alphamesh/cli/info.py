@@ -23,11 +23,12 @@ from alphamesh.cli.inputs import (
 )
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, number, points_text, print_json, print_lines
+from alphamesh.measures import edge_lengths
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from alphamesh.filtration import Filtration
+    from alphamesh.filtration import AnyFiltration
 
 __all__ = ["command", "nearest_distances"]
 
@@ -42,7 +43,7 @@ _DIMENSIONS = {
     -1: "no points",
     0: "0, all at one place",
     1: "1, all on one line",
-    2: "2",
+    2: "2, all in one plane",
 }
 
 _EXAMPLES = (
@@ -118,7 +119,7 @@ def _points(source: str, options: InputOptions, threads: int | None, steps: Step
     lines = {
         "File": given.text,
         "Points": points_text(count, count - distinct),
-        "Dimension": _DIMENSIONS[complex_.dimension],
+        "Dimension": _dimension_text(complex_),
     }
     if count:
         _tell_bounds(complex_.points, facts, lines)
@@ -130,6 +131,12 @@ def _points(source: str, options: InputOptions, threads: int | None, steps: Step
     return facts, lines
 
 
+def _dimension_text(filtration: AnyFiltration) -> str:
+    dimension = filtration.dimension
+    full = dimension == filtration.points.shape[1]
+    return str(dimension) if full else _DIMENSIONS[dimension]
+
+
 def _tell_bounds(
     points: NDArray[np.float64], facts: dict[str, Any], lines: dict[str, str]
 ) -> None:
@@ -139,7 +146,9 @@ def _tell_bounds(
         lines[name] = f"{number(low[axis])} to {number(high[axis])}"
 
 
-def _tell_spacing(complex_: Filtration, facts: dict[str, Any], lines: dict[str, str]) -> None:
+def _tell_spacing(
+    complex_: AnyFiltration, facts: dict[str, Any], lines: dict[str, str]
+) -> None:
     nearest = nearest_distances(complex_)
     if len(nearest) == 0:
         return
@@ -150,7 +159,7 @@ def _tell_spacing(complex_: Filtration, facts: dict[str, Any], lines: dict[str, 
     )
 
 
-def nearest_distances(filtration: Filtration) -> NDArray[np.float64]:
+def nearest_distances(filtration: AnyFiltration) -> NDArray[np.float64]:
     """Return the distance from each distinct point to the nearest other one.
 
     The nearest neighbour of a point is among its neighbours in the Delaunay
@@ -158,18 +167,17 @@ def nearest_distances(filtration: Filtration) -> NDArray[np.float64]:
 
     Parameters
     ----------
-    filtration : Filtration
+    filtration : Filtration or Filtration3D
 
     Returns
     -------
     (m,) float64 array
         In the order of the vertices; empty for fewer than two distinct points.
     """
-    vertices, edges, _ = filtration.simplices
+    vertices, edges = filtration.simplices[:2]
     if len(edges) == 0:
         return np.empty(0)
-    ends = filtration.points[edges]
-    lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    lengths = edge_lengths(filtration.points, edges)
     nearest = np.full(len(filtration.points), math.inf)
     for side in (0, 1):
         np.minimum.at(nearest, edges[:, side], lengths)

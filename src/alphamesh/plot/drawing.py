@@ -87,7 +87,7 @@ def plot_cloud(points: ArrayLike, ax: Axes | None = None) -> Drawing:
     CloudError
         If `points` is not a cloud, or not finite.
     """
-    cloud = as_cloud(points).points
+    cloud = as_cloud(points, 2).points
     if not np.isfinite(cloud).all():
         raise coordinate_error(cloud)
     canvas = Canvas(cloud, ax)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from alphamesh.radius import (
     _all_points,
+    _cell_count,
     _longest_interval,
     _regions,
     _topology,
-    _triangle_count,
 )
 from alphamesh.radius._choice import RadiusChoice, RadiusInterval
 from alphamesh.radius._registry import DEFAULT_RULE, choose_radius, radius_rule, rule_names
@@ -21,4 +21,4 @@ __all__ = [
     "rule_names",
 ]
 
-_RULE_MODULES = (_all_points, _longest_interval, _regions, _topology, _triangle_count)
+_RULE_MODULES = (_all_points, _cell_count, _longest_interval, _regions, _topology)

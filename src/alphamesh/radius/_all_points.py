@@ -4,50 +4,55 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from alphamesh.classify import least_at_vertices
 from alphamesh.radius._choice import RadiusChoice
 from alphamesh.radius._registry import radius_rule
+from alphamesh.radius._words import CELLS, flat_text
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
-    from alphamesh.filtration import Filtration
+    from alphamesh.filtration import AnyFiltration
 
 __all__ = ["covered_from"]
 
 
 @radius_rule("all-points")
-def _all_points(filtration: Filtration) -> RadiusChoice:
-    """Choose the smallest radius at which no point is left out of the triangles."""
+def _all_points(filtration: AnyFiltration) -> RadiusChoice:
+    """Choose the smallest radius at which no point is left out of the cells."""
     if filtration.dimension == 0:
         return _choice(0.0, "All points are at one place: nothing is left out.")
     covered = covered_from(filtration)
     last = int(covered.argmax())
     row = int(filtration.simplices[0][last, 0])
-    x, y = filtration.points[row]
-    count, last_point = f"{len(covered):,}", f"row {row} at ({x:.6g}, {y:.6g})"
-    if filtration.dimension == 1:
-        reason = (
-            f"The {count} points lie on one line, so there are no triangles. This is the "
-            "smallest radius at which each point is joined to another by an edge; any "
-            f"smaller one leaves out {last_point}."
-        )
-    else:
-        reason = (
-            f"This is the smallest radius at which each of the {count} points is a corner of "
-            f"a triangle; any smaller one leaves out {last_point}."
-        )
+    place = ", ".join(f"{x:.6g}" for x in filtration.points[row])
+    count, last_point = f"{len(covered):,}", f"row {row} at ({place})"
+    dimension, columns = filtration.dimension, filtration.points.shape[1]
+    joined = "joined to another by" if dimension == 1 else "a corner of"
+    flat = flat_text(f"The {count} points", dimension, columns)
+    each = "each point" if flat else f"each of the {count} points"
+    reason = (
+        f"{flat}This is the smallest radius at which {each} is {joined} "
+        f"{CELLS[dimension][0]}; any smaller one leaves out {last_point}."
+    )
     return _choice(float(covered[last]), reason)
 
 
-def covered_from(filtration: Filtration) -> FloatArray:
-    """Return from which radius on each vertex has a triangle; an edge, for points on a line.
+def covered_from(filtration: AnyFiltration) -> FloatArray:
+    """Return from which radius on each vertex has a cell: the largest simplices there are.
+
+    These are edges for points on a line, and triangles for points in a plane in space.
 
     Returns
     -------
     (m_0,) float64
     """
-    if filtration.dimension == 1:
-        return filtration.joined_from
-    return filtration.vertex_intervals.regular_from
+    dimension = filtration.dimension
+    if dimension == filtration.points.shape[1]:
+        return filtration.vertex_intervals.regular_from
+    vertices = filtration.simplices[0][:, 0]
+    return least_at_vertices(
+        vertices, filtration.simplices[dimension], filtration.radii[dimension]
+    )
 
 
 def _choice(radius: float, reason: str) -> RadiusChoice:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from alphamesh.filtration import Filtration
 
 
-@radius_rule("longest-interval")
+@radius_rule("longest-interval", columns=(2,))
 def _longest_interval(filtration: Filtration) -> RadiusChoice:
     """Choose the middle of the widest range without a change, before all becomes one."""
     radii, numbers = persistence(filtration).betti_curve()

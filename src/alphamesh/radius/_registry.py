@@ -10,55 +10,67 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from alphamesh.errors import EmptyCloudError, ParameterError
-from alphamesh.filtration import Filtration
+from alphamesh.errors import DimensionError, EmptyCloudError, ParameterError
+from alphamesh.filtration import AnyFiltration, Filtration
+from alphamesh.filtration3d import Filtration3D
 from alphamesh.persistence import persistence
 from alphamesh.radius._choice import RadiusChoice
 
 __all__ = ["DEFAULT_RULE", "choose_radius", "radius_rule", "rule_names"]
 
 DEFAULT_RULE = "topology"
+_DEFAULT_IN_SPACE = "all-points"
 
 Rule: TypeAlias = Callable[..., RadiusChoice]
 
 _RULES: dict[str, Rule] = {}
+_COLUMNS: dict[str, tuple[int, ...]] = {}
 
 
-def radius_rule(name: str) -> Callable[[Rule], Rule]:
+def radius_rule(name: str, columns: tuple[int, ...] = (2, 3)) -> Callable[[Rule], Rule]:
     """Return a decorator that makes a function known as the rule `name`.
 
-    The function takes a :class:`~alphamesh.filtration.Filtration` of at least one point,
-    and its own options as keywords, and returns a :class:`RadiusChoice`. What it leaves
-    out of `interval` and `betti` is filled in.
+    The function takes a filtration of at least one point, whose points have one of the
+    given numbers of `columns`, and its own options as keywords, and returns a
+    :class:`RadiusChoice`. What it leaves out of `interval` and `betti` is filled in.
     """
 
     def register(rule: Rule) -> Rule:
         if name in _RULES:
             raise ParameterError(f"there is a radius rule {name!r} already")
         _RULES[name] = rule
+        _COLUMNS[name] = columns
         return rule
 
     return register
 
 
-def rule_names() -> tuple[str, ...]:
-    """Return the names of all rules, the default first."""
-    return tuple(sorted(_RULES, key=lambda name: (name != DEFAULT_RULE, name)))
+def rule_names(columns: int = 2) -> tuple[str, ...]:
+    """Return the names of all rules for points of so many columns, the default first."""
+    names = (name for name in _RULES if columns in _COLUMNS[name])
+    return tuple(sorted(names, key=lambda name: (name != _default(columns), name)))
+
+
+def _default(columns: int) -> str:
+    return DEFAULT_RULE if columns == 2 else _DEFAULT_IN_SPACE
 
 
 def choose_radius(
-    filtration: Filtration, rule: str = DEFAULT_RULE, **options: Any
+    filtration: AnyFiltration, rule: str | None = None, **options: Any
 ) -> RadiusChoice:
     """Choose a radius for a filtration, and say why.
 
     Parameters
     ----------
-    filtration : Filtration
+    filtration : Filtration or Filtration3D
         From :func:`alphamesh.filtration.filtration`, or ``AlphaComplex.filtration``.
-    rule : str
+    rule : str, optional
+        By default ``"topology"`` in the plane and ``"all-points"`` in space. Rules speak
+        of triangles; in space these are tetrahedra.
+
         ``"topology"``: where the noise of sampling has died out while the holes and gaps
         of the shape stand. Options, for those who know: ``betti=(b0, b1)``,
-        ``components=b0``, ``holes=b1`` and ``min_hole=radius``.
+        ``components=b0``, ``holes=b1`` and ``min_hole=radius``. In the plane alone.
 
         ``"all-points"``: the smallest radius at which every point is a corner of some
         triangle. Known from ``criticalAlpha(shp, "all-points")`` in MATLAB and
@@ -72,10 +84,11 @@ def choose_radius(
         ``criticalAlpha(shp, "one-region")`` in MATLAB.
 
         ``"longest-interval"``: the middle of the widest range of radii over which the
-        numbers of components and holes do not change.
+        numbers of components and holes do not change. In the plane alone.
 
         ``"triangle-count"``: the smallest radius that gives at least ``triangles=k``
-        triangles.
+        triangles. In the plane alone; in space, ``"tetrahedron-count"`` with
+        ``tetrahedra=k``.
     **options
         Options of the rule.
 
@@ -92,14 +105,18 @@ def choose_radius(
         option cannot be met.
     """
     given: Any = filtration
-    if not isinstance(given, Filtration):
+    if not isinstance(given, Filtration | Filtration3D):
         raise ParameterError(
             f"choose_radius needs a filtration, not {type(given).__name__}; "
             "make one with alphamesh.filtration(points), or use AlphaComplex.choose_radius()"
         )
+    columns = filtration.points.shape[1]
+    rule = _default(columns) if rule is None else rule
     chosen = _RULES.get(rule)
     if chosen is None:
-        raise _unknown_rule(rule)
+        raise _unknown_rule(rule, columns)
+    if columns not in _COLUMNS[rule]:
+        raise _other_columns(rule, columns)
     _refuse_unknown_options(rule, chosen, options)
     if len(filtration.points) == 0:
         raise EmptyCloudError(
@@ -109,8 +126,10 @@ def choose_radius(
     return _completed(filtration, chosen(filtration, **options))
 
 
-def _completed(filtration: Filtration, choice: RadiusChoice) -> RadiusChoice:
+def _completed(filtration: AnyFiltration, choice: RadiusChoice) -> RadiusChoice:
     """Return `choice` with the Betti numbers at its radius and where they hold."""
+    if isinstance(filtration, Filtration3D):
+        return choice
     if choice.interval is not None and choice.betti is not None:
         return choice
     radii, numbers = persistence(filtration).betti_curve()
@@ -120,8 +139,16 @@ def _completed(filtration: Filtration, choice: RadiusChoice) -> RadiusChoice:
     return replace(choice, interval=(float(radii[step]), high), betti=(b0, b1))
 
 
-def _unknown_rule(rule: Any) -> ParameterError:
-    names = ", ".join(repr(name) for name in rule_names())
+def _other_columns(rule: str, columns: int) -> DimensionError:
+    names = ", ".join(repr(name) for name in rule_names(columns))
+    where = "in the plane" if _COLUMNS[rule] == (2,) else "in space"
+    return DimensionError(
+        f"the radius rule {rule!r} is for points {where} alone; for these points: {names}"
+    )
+
+
+def _unknown_rule(rule: Any, columns: int) -> ParameterError:
+    names = ", ".join(repr(name) for name in rule_names(columns))
     close = difflib.get_close_matches(str(rule), list(_RULES), n=1)
     guess = f"did you mean {close[0]!r}? " if close else ""
     return ParameterError(f"there is no radius rule {rule!r}; {guess}rules: {names}")

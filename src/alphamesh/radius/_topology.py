@@ -34,7 +34,7 @@ class _Steps(NamedTuple):
     score: FloatArray
 
 
-@radius_rule(_RULE)
+@radius_rule(_RULE, columns=(2,))
 def _topology(
     filtration: Filtration,
     *,

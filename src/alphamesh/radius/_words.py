@@ -2,7 +2,22 @@
 
 from __future__ import annotations
 
-__all__ = ["components_and_holes", "counted"]
+__all__ = ["CELLS", "components_and_holes", "counted", "flat_text"]
+
+#: What the largest simplices of a cloud of each dimension are called: one, several.
+CELLS = {
+    1: ("an edge", "edges"),
+    2: ("a triangle", "triangles"),
+    3: ("a tetrahedron", "tetrahedra"),
+}
+_FLATS = {1: "on one line", 2: "in one plane"}
+
+
+def flat_text(points: str, dimension: int, columns: int) -> str:
+    """Return what is said first of points that do not fill the plane or space."""
+    if dimension == columns:
+        return ""
+    return f"{points} lie {_FLATS[dimension]}, so there are no {CELLS[columns][1]}. "
 
 
 def counted(number: int, singular: str, plural: str | None = None) -> str:

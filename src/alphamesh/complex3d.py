@@ -1,0 +1,146 @@
+"""The alpha complex of a cloud in space, built once, looked at in many ways."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+
+from alphamesh._arrays import read_only
+from alphamesh.complex import AlphaComplex
+from alphamesh.errors import DimensionError
+from alphamesh.filtration3d import filtration_in_space
+from alphamesh.shape3d import AlphaShape3D
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import FloatArray, IntArray
+    from alphamesh._kernels import Progress
+    from alphamesh.delaunay3d import Delaunay3D
+    from alphamesh.filtration3d import Filtration3D
+
+__all__ = ["AlphaComplex3D"]
+
+_IN_PLANE = "project the points, or choose two columns: alphamesh.AlphaComplex(points[:, :2])"
+
+
+class AlphaComplex3D(AlphaComplex):
+    """The alpha complex of a cloud in space; what ``AlphaComplex`` of three columns returns.
+
+    Parameters
+    ----------
+    points : array-like of shape (n, 3)
+        Arrays, lists, DataFrames of three numeric columns; copied. Duplicates are merged.
+        Any number of points is legal: none, one, all on one line or in one plane.
+    threads, progress : optional
+        See :class:`~alphamesh.AlphaComplex`, also for the errors.
+
+    Examples
+    --------
+    >>> import alphamesh as am
+    >>> cube = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    >>> cx = am.AlphaComplex(cube)
+    >>> cx.at(1).volume
+    1.0
+    """
+
+    __slots__ = ()
+
+    _filtration: Filtration3D  # type: ignore[assignment]
+
+    @staticmethod
+    def _built(points: Any, threads: int | None, progress: Progress | None) -> Any:
+        return filtration_in_space(points, threads=threads, progress=progress)
+
+    @property
+    def filtration(self) -> Filtration3D:  # type: ignore[override]
+        """Every simplex and its filtration value."""
+        return self._filtration
+
+    @property
+    def points(self) -> FloatArray:
+        """The cloud, ``(n, 3)`` float64."""
+        return self._filtration.points
+
+    @property
+    def dimension(self) -> int:
+        """Of the cloud: 3, 2 if in one plane, 1 if on one line, 0 if at one point, or -1."""
+        return self._filtration.dimension
+
+    @property
+    def simplices(self) -> tuple[IntArray, IntArray, IntArray, IntArray]:  # type: ignore[override]
+        """Vertices, edges, triangles, tetrahedra: rows of `points`, ``(m_k, k + 1)`` int32."""
+        return self._filtration.simplices
+
+    @property
+    def radii(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:  # type: ignore[override]
+        """Filtration values of `simplices`, ``(m_k,)`` float64 in the units of the points."""
+        return self._filtration.radii
+
+    @property
+    def delaunay(self) -> Delaunay3D:  # type: ignore[override]
+        """The Delaunay triangulation, with the neighbours of each tetrahedron."""
+        return self._filtration.delaunay
+
+    def at(self, radius: float | None = None) -> AlphaShape3D:  # type: ignore[override]
+        """Return the complex at one radius: all simplices of value <= radius.
+
+        Parameters and errors are those of :meth:`AlphaComplex.at`.
+
+        Returns
+        -------
+        AlphaShape3D
+        """
+        if radius is None:
+            radius = self.choose_radius().radius
+        return AlphaShape3D(self._filtration, radius)
+
+    def critical_radii(self) -> FloatArray:
+        """Return every radius at which the complex changes, ascending, without repeats.
+
+        Returns
+        -------
+        (k,) float64
+            See :meth:`AlphaComplex.critical_radii`.
+        """
+        vertices, *others = self._filtration.radii
+        return read_only(np.unique(np.concatenate((vertices[:1], *others))))
+
+    # What there is in the plane alone
+
+    @property
+    def convex_hull(self) -> NoReturn:
+        """Not there in space: see ``delaunay.hull_triangles``."""
+        raise DimensionError(
+            "convex_hull is the ring of a cloud in the plane; the hull of a cloud in space is "
+            "delaunay.hull_triangles"
+        )
+
+    @property
+    def voronoi(self) -> NoReturn:
+        """Not there in space."""
+        raise DimensionError(f"Voronoi diagrams are there in the plane alone; {_IN_PLANE}")
+
+    def restricted_voronoi(self, *_: Any, **__: Any) -> NoReturn:
+        """Not there in space."""
+        raise DimensionError(
+            f"restricted Voronoi cells are there in the plane alone; {_IN_PLANE}"
+        )
+
+    def measure_curves(self) -> NoReturn:
+        """Not there in space."""
+        raise DimensionError(f"measure curves are there in the plane alone; {_IN_PLANE}")
+
+    def plot(self, *_: Any, **__: Any) -> NoReturn:
+        """Not there in space."""
+        raise DimensionError(f"plot() draws complexes in the plane alone; {_IN_PLANE}")
+
+    def animate(self, *_: Any, **__: Any) -> NoReturn:
+        """Not there in space."""
+        raise DimensionError(f"films are made of clouds in the plane alone; {_IN_PLANE}")
+
+    def __repr__(self) -> str:
+        vertices, edges, triangles, tetrahedra = (f"{len(rows):,}" for rows in self.simplices)
+        return (
+            f"<AlphaComplex3D: {vertices} vertices, {edges} edges, {triangles} triangles, "
+            f"{tetrahedra} tetrahedra>"
+        )

@@ -1,0 +1,94 @@
+"""The alpha complex in space at one radius: what is in it, where, and how large it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from alphamesh._arrays import read_only
+from alphamesh.classify import checked_radius, chosen, reached
+from alphamesh.solid import SolidShape
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import BoolArray, IntArray, KindArray
+
+__all__ = ["AlphaShape3D"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class AlphaShape3D(SolidShape):
+    """The alpha complex of a cloud in space at one radius: all simplices of value <= radius.
+
+    Making one costs nothing; each property is computed when it is first asked for, in a
+    few passes over arrays, and kept. Simplices are rows of `points`, in the order of the
+    filtration. Arrays are read-only.
+
+    Parameters
+    ----------
+    filtration : Filtration3D
+    radius : float
+        Not negative, in the units of the points. ``numpy.inf`` gives the whole Delaunay
+        triangulation.
+
+    Raises
+    ------
+    ParameterError
+        If `radius` is not a number, negative or NaN.
+
+    Notes
+    -----
+    A simplex of the complex is *singular* if it belongs to none of its tetrahedra,
+    *regular* if it lies on the boundary of the tetrahedra, else *interior*. The
+    *regularized* shape is made of the tetrahedra alone.
+    """
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", checked_radius(self.radius))
+
+    @cached_property
+    def _vertex_kinds(self) -> KindArray:
+        return self.filtration.vertex_intervals.kinds_at(self.radius)
+
+    @cached_property
+    def _edge_kinds(self) -> KindArray:
+        return self.filtration.edge_intervals.kinds_at(self.radius)
+
+    @cached_property
+    def _triangle_kinds(self) -> KindArray:
+        return self.filtration.triangle_intervals.kinds_at(self.radius)
+
+    @cached_property
+    def _has_tetrahedron(self) -> BoolArray:
+        return read_only(self.filtration.radii[3] <= self.radius)
+
+    @cached_property
+    def triangles(self) -> IntArray:
+        """All triangles of the complex, ``(k, 3)`` int32, each ascending."""
+        return chosen(self.filtration.simplices[2], self.filtration.radii[2] <= self.radius)
+
+    @cached_property
+    def edges(self) -> IntArray:
+        """All edges of the complex, ``(k, 2)`` int32, each ascending."""
+        return chosen(self.filtration.simplices[1], self.filtration.radii[1] <= self.radius)
+
+    @property
+    def _isolated_edge(self) -> BoolArray:
+        there = self.filtration.radii[1] <= self.radius
+        there &= ~reached(self.filtration.filled_from, self.radius)
+        return there
+
+    @cached_property
+    def isolated_vertices(self) -> IntArray:
+        """Vertices without any edge, ``(k,)`` int32."""
+        return chosen(self._vertices, ~reached(self.filtration.joined_from, self.radius))
+
+    def __repr__(self) -> str:
+        counts = self.counts
+        kinds = ["tetrahedra"] + [
+            kind
+            for kind in ("singular_triangles", "isolated_edges", "isolated_vertices")
+            if counts[kind]
+        ]
+        facts = [f"{counts[kind]:,} {kind.replace('_', ' ')}" for kind in kinds]
+        return f"<AlphaShape3D at radius {self.radius:.6g}: {', '.join(facts)}>"

@@ -1,0 +1,28 @@
+"""The compiled core in space, its results by name."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from alphamesh._kernels import _core
+
+NAMES = [
+    "dimension",
+    "representative",
+    "tetrahedra",
+    "tetrahedron_radii",
+    "triangles",
+    "triangle_radii",
+    "triangle_tetrahedra",
+    "edges",
+    "edge_radii",
+]
+
+
+def alpha3(points, threads=1):
+    points = np.ascontiguousarray(points, dtype=float)
+    return dict(zip(NAMES, _core.alpha3(points, threads, None), strict=True))
+
+
+def row_set(rows):
+    return {tuple(row) for row in np.sort(rows, axis=1).tolist()}
