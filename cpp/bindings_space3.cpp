@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "compact3.hpp"
 #include "delaunay2.hpp"
 #include "delaunay3.hpp"
 #include "output2.hpp"

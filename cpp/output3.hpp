@@ -1,4 +1,4 @@
-// From the triangulated 3-sphere to flat arrays in the numbers of the input's rows.
+// From compact tetrahedra to flat arrays in the numbers of the input's rows.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,6 @@
 #include "spatial_sort.hpp"
 
 namespace alphamesh {
-
-// The tetrahedra without ghosts in an order that depends on the cloud alone: by their
-// first vertex along the curve, then by the others. Vertices stand in lexicographic order
-// of their points; neighbor[i] as in Tetrahedron, -1 beyond the hull.
-Buffer<Tetrahedron> compact3(const SpatialOrder3& order, Mesh3&& mesh, Job& job);
 
 // Rows of vertex numbers ascend. The order of the rows depends on the cloud alone.
 struct Filtration3 {
