@@ -10,50 +10,15 @@ namespace {
 
 using Id = std::int32_t;
 
+std::size_t place(Id i) { return static_cast<std::size_t>(i); }
+
 bool is_real(const Tetrahedron& t, Id infinity) {
-  return t.vertex[0] >= 0 && t.vertex[0] != infinity && t.vertex[1] != infinity &&
-         t.vertex[2] != infinity && t.vertex[3] != infinity;
+  return (t.vertex[0] >= 0) & (t.vertex[0] != infinity) & (t.vertex[1] != infinity) &
+         (t.vertex[2] != infinity) & (t.vertex[3] != infinity);
 }
 
 Id first_vertex(const Tetrahedron& t) {
   return std::min(std::min(t.vertex[0], t.vertex[1]), std::min(t.vertex[2], t.vertex[3]));
-}
-
-// Slots of the tetrahedra, those with the first vertex v at start[v] ... start[v + 1].
-struct Buckets {
-  Buffer<Id> start, slot;
-};
-
-Buckets bucket(const Mesh3& mesh, std::size_t n, Job& job) {
-  Buckets out;
-  std::vector<std::atomic<Id>> count(n + 1);
-  for (auto& c : count) c.store(0, std::memory_order_relaxed);
-  const Parts parts(mesh.slots, job);
-  job.run(parts.count(), [&](std::size_t part) {
-    for (std::size_t s = parts.begin(part); s < parts.end(part); ++s) {
-      const Tetrahedron& t = mesh.slot[s];
-      if (!is_real(t, mesh.infinity)) continue;
-      count[static_cast<std::size_t>(first_vertex(t)) + 1].fetch_add(1, std::memory_order_relaxed);
-    }
-  });
-  out.start = Buffer<Id>(n + 1);
-  Id sum = 0;
-  for (std::size_t v = 0; v <= n; ++v) {
-    sum += count[v].load(std::memory_order_relaxed);
-    out.start[v] = sum;
-    count[v].store(sum, std::memory_order_relaxed);
-  }
-  out.slot = Buffer<Id>(static_cast<std::size_t>(sum));
-  job.run(parts.count(), [&](std::size_t part) {
-    for (std::size_t s = parts.begin(part); s < parts.end(part); ++s) {
-      const Tetrahedron& t = mesh.slot[s];
-      if (!is_real(t, mesh.infinity)) continue;
-      const auto v = static_cast<std::size_t>(first_vertex(t));
-      out.slot[static_cast<std::size_t>(count[v].fetch_add(1, std::memory_order_relaxed))] =
-          static_cast<Id>(s);
-    }
-  });
-  return out;
 }
 
 // A tetrahedron among those with the same first vertex: its other vertices, ascending.
@@ -82,75 +47,157 @@ struct Rest {
   }
 };
 
-// Positions in lexicographic order of the points.
-void rank_vertices(const Point3* p, const Id* vertex, int* order) {
-  for (int i = 0; i < 4; ++i) order[i] = i;
-  auto settle = [&](int i, int j) {
-    if (p[vertex[order[j]]] < p[vertex[order[i]]]) std::swap(order[i], order[j]);
-  };
-  settle(0, 1);
-  settle(2, 3);
-  settle(0, 2);
-  settle(1, 3);
-  settle(1, 2);
+// How many of four points come before each of them, without a branch on their order.
+template <class T, class Less>
+void count_smaller(const T* v, int* rank, Less&& less) {
+  const int ab = less(v[0], v[1]), ac = less(v[0], v[2]), ad = less(v[0], v[3]);
+  const int bc = less(v[1], v[2]), bd = less(v[1], v[3]), cd = less(v[2], v[3]);
+  rank[0] = 3 - ab - ac - ad;
+  rank[1] = 2 + ab - bc - bd;
+  rank[2] = 1 + ac + bc - cd;
+  rank[3] = ad + bd + cd;
+}
+
+void lexicographic_ranks(const Point3* p, const Id* vertex, int* rank) {
+  const Point3 v[4] = {p[vertex[0]], p[vertex[1]], p[vertex[2]], p[vertex[3]]};
+  const bool tie = (v[0].x == v[1].x) | (v[0].x == v[2].x) | (v[0].x == v[3].x) |
+                   (v[1].x == v[2].x) | (v[1].x == v[3].x) | (v[2].x == v[3].x);
+  if (!tie) {
+    count_smaller(v, rank, [](const Point3& a, const Point3& b) { return a.x < b.x; });
+  } else {
+    count_smaller(v, rank, [](const Point3& a, const Point3& b) {
+      return (a.x < b.x) | ((a.x == b.x) & ((a.y < b.y) | ((a.y == b.y) & (a.z < b.z))));
+    });
+  }
+}
+
+class Compactor {
+ public:
+  Compactor(const SpatialOrder3& order, Mesh3&& mesh, Job& job)
+      : p_(order.points.data()), n_(order.size), mesh_(std::move(mesh)), job_(job) {
+    while (((n_ - 1) >> shift_) >= kParts) ++shift_;
+  }
+  Compact3 run();
+
+ private:
+  static constexpr std::size_t kParts = 64;
+
+  void chain();
+  void settle(std::size_t part, std::vector<Rest>& bucket);
+  void write(std::size_t t, Id slot);
+  void connect();
+
+  const Point3* p_;
+  std::size_t n_;
+  Mesh3 mesh_;
+  Job& job_;
+  int shift_ = 0;  // vertex v belongs to part v >> shift_
+  std::size_t first_[kParts + 1] = {};
+  std::vector<std::atomic<Id>> head_;  // per vertex: a slot of which it is the first one
+  Buffer<Id> id_;                      // per slot: the next in the chain, then its row; -1: none
+  Buffer<std::uint8_t> moved_;         // per slot: where its vertices have gone, two bits each
+  Compact3 out_;
+};
+
+// Chains the tetrahedra by their first vertices, in whatever order, and counts them.
+void Compactor::chain() {
+  head_ = std::vector<std::atomic<Id>>(n_);
+  id_ = Buffer<Id>(mesh_.slots);
+  const Parts vertices(n_, job_), slots(mesh_.slots, job_);
+  job_.run(vertices.count(), [&](std::size_t part) {
+    for (std::size_t v = vertices.begin(part); v < vertices.end(part); ++v) {
+      head_[v].store(-1, std::memory_order_relaxed);
+    }
+  });
+  std::vector<std::size_t> count(slots.count() * kParts, 0);
+  const bool alone = job_.threads() == 1;
+  job_.run(slots.count(), [&](std::size_t part) {
+    std::size_t mine[kParts] = {};
+    for (std::size_t s = slots.begin(part); s < slots.end(part); ++s) {
+      const Tetrahedron& t = mesh_.slot[s];
+      if (!is_real(t, mesh_.infinity)) {
+        id_[s] = -1;
+        continue;
+      }
+      const std::size_t v = place(first_vertex(t));
+      ++mine[v >> shift_];
+      std::atomic<Id>& head = head_[v];
+      const Id slot = static_cast<Id>(s);
+      if (alone) {
+        id_[s] = head.load(std::memory_order_relaxed);
+        head.store(slot, std::memory_order_relaxed);
+      } else {
+        id_[s] = head.exchange(slot, std::memory_order_relaxed);
+      }
+    }
+    std::copy(mine, mine + kParts, &count[part * kParts]);
+  });
+  for (std::size_t part = 0; part < kParts; ++part) {
+    first_[part + 1] = first_[part];
+    for (std::size_t k = 0; k < slots.count(); ++k) first_[part + 1] += count[k * kParts + part];
+  }
+}
+
+// Numbers the tetrahedra of a part and writes them, their neighbours as slots still.
+void Compactor::settle(std::size_t part, std::vector<Rest>& bucket) {
+  const std::size_t lo = part << shift_, hi = std::min(n_, (part + 1) << shift_);
+  std::size_t t = first_[part];
+  for (std::size_t v = lo; v < hi; ++v) {
+    bucket.clear();
+    for (Id s = head_[v].load(std::memory_order_relaxed); s >= 0; s = id_[place(s)]) {
+      bucket.emplace_back(mesh_.slot[place(s)], s);
+    }
+    std::sort(bucket.begin(), bucket.end());
+    for (const Rest& r : bucket) write(t++, r.slot);
+  }
+}
+
+void Compactor::write(std::size_t t, Id slot) {
+  const Tetrahedron& from = mesh_.slot[place(slot)];
+  int rank[4];
+  lexicographic_ranks(p_, from.vertex, rank);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t to = 4 * t + static_cast<std::size_t>(rank[k]);
+    out_.vertex[to] = from.vertex[k];
+    out_.neighbor[to] = from.neighbor[k];
+  }
+  id_[place(slot)] = static_cast<Id>(t);
+  moved_[place(slot)] =
+      static_cast<std::uint8_t>(rank[0] | (rank[1] << 2) | (rank[2] << 4) | (rank[3] << 6));
+}
+
+// Turns slots into rows.
+void Compactor::connect() {
+  const Parts rows(out_.count, job_);
+  job_.run(rows.count(), [&](std::size_t part) {
+    for (std::size_t i = 4 * rows.begin(part); i < 4 * rows.end(part); ++i) {
+      const Id code = out_.neighbor[i], row = id_[place(code >> 2)];
+      const int position = (moved_[place(code >> 2)] >> (2 * (code & 3))) & 3;
+      out_.neighbor[i] = row < 0 ? -1 : 4 * row + position;
+    }
+  });
+}
+
+Compact3 Compactor::run() {
+  chain();
+  moved_ = Buffer<std::uint8_t>(mesh_.slots);
+  out_.count = first_[kParts];
+  out_.vertex = Buffer<Id>(4 * out_.count);
+  out_.neighbor = Buffer<Id>(4 * out_.count);
+  job_.run(kParts, [&](std::size_t part) {
+    std::vector<Rest> bucket;
+    settle(part, bucket);
+  });
+  mesh_.slot = Buffer<Tetrahedron>();
+  connect();
+  return std::move(out_);
 }
 
 }  // namespace
 
-Buffer<Tetrahedron> compact3(const SpatialOrder3& order, Mesh3&& triangulated, Job& job) {
-  const Mesh3 mesh = std::move(triangulated);  // gone when this is over
-  const std::size_t n = order.size;
-  const Point3* p = order.points.data();
+Compact3 compact3(const SpatialOrder3& order, Mesh3&& mesh, Job& job) {
   if (mesh.slots == 0) return {};
-  Buckets buckets = bucket(mesh, n, job);
-  const Parts parts(n, job);
-  Buffer<Id> id(mesh.slots);  // of each slot
-  job.run(Parts(mesh.slots, job).count(), [&](std::size_t part) {
-    const Parts slots(mesh.slots, job);
-    std::fill(id.begin() + slots.begin(part), id.begin() + slots.end(part), -1);
-  });
-  job.run(parts.count(), [&](std::size_t part) {
-    std::vector<Rest> bucket;
-    for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
-      bucket.clear();
-      for (Id i = buckets.start[v]; i < buckets.start[v + 1]; ++i) {
-        const Id s = buckets.slot[static_cast<std::size_t>(i)];
-        bucket.emplace_back(mesh.slot[static_cast<std::size_t>(s)], s);
-      }
-      std::sort(bucket.begin(), bucket.end());
-      Id i = buckets.start[v];
-      for (const Rest& r : bucket) {
-        id[static_cast<std::size_t>(r.slot)] = i;
-        buckets.slot[static_cast<std::size_t>(i++)] = r.slot;
-      }
-    }
-  });
-  const std::size_t count = buckets.slot.size();
-  Buffer<Tetrahedron> out(count);
-  Buffer<std::uint8_t> place(4 * mesh.slots);  // where each vertex of a slot has gone
-  const Parts rows(count, job);
-  job.run(rows.count(), [&](std::size_t part) {
-    for (std::size_t t = rows.begin(part); t < rows.end(part); ++t) {
-      const auto s = static_cast<std::size_t>(buckets.slot[t]);
-      int order4[4];
-      rank_vertices(p, mesh.slot[s].vertex, order4);
-      for (int k = 0; k < 4; ++k) {
-        out[t].vertex[k] = mesh.slot[s].vertex[order4[k]];
-        place[4 * s + static_cast<std::size_t>(order4[k])] = static_cast<std::uint8_t>(k);
-      }
-    }
-  });
-  job.run(rows.count(), [&](std::size_t part) {
-    for (std::size_t t = rows.begin(part); t < rows.end(part); ++t) {
-      const auto s = static_cast<std::size_t>(buckets.slot[t]);
-      for (std::size_t k = 0; k < 4; ++k) {
-        const Id code = mesh.slot[s].neighbor[k], other = id[static_cast<std::size_t>(code >> 2)];
-        out[t].neighbor[place[4 * s + k]] =
-            other < 0 ? -1 : 4 * other + place[static_cast<std::size_t>(code)];
-      }
-    }
-  });
-  return out;
+  return Compactor(order, std::move(mesh), job).run();
 }
 
 }  // namespace alphamesh

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "delaunay3.hpp"
+#include "compact3.hpp"
 #include "memory.hpp"
 #include "parallel.hpp"
 #include "spatial_sort.hpp"
@@ -22,8 +22,7 @@ struct Filtration3 {
   Buffer<double> edge_radii;                 // (E,)
 };
 
-// The alpha filtration (Edelsbrunner & Muecke 1994), see Filtration2. `mesh` comes from
-// compact3().
-Filtration3 filtration3(const SpatialOrder3& order, const Buffer<Tetrahedron>& mesh, Job& job);
+// The alpha filtration (Edelsbrunner & Muecke 1994), see Filtration2.
+Filtration3 filtration3(const SpatialOrder3& order, Compact3&& mesh, Job& job);
 
 }  // namespace alphamesh
