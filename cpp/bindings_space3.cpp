@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "compact3.hpp"
 #include "delaunay2.hpp"
 #include "delaunay3.hpp"
 #include "output2.hpp"
@@ -50,8 +51,8 @@ nb::tuple alpha3(const Points3& points, int threads, const nb::object& progress)
     dimension = static_cast<int>(span.size()) - 1;
     if (dimension == 3) {
       Mesh3 mesh = delaunay3(order, span, job);
-      const Buffer<Tetrahedron> compact = compact3(order, std::move(mesh), job);
-      f = filtration3(order, compact, job);
+      Compact3 compact = compact3(order, std::move(mesh), job);
+      f = filtration3(order, std::move(compact), job);
     } else {
       f = flat_filtration(order, span, job);
     }

@@ -1,219 +1,168 @@
 #include "output3.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "edges3.hpp"
 #include "values3.hpp"
 
 namespace alphamesh {
 namespace {
 
 using Id = std::int32_t;
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr std::size_t kBlock = TetrahedronBlock::kSize;
 
-bool is_real(const Tetrahedron& t, Id infinity) {
-  return t.vertex[0] >= 0 && t.vertex[0] != infinity && t.vertex[1] != infinity &&
-         t.vertex[2] != infinity && t.vertex[3] != infinity;
+void settle(Id& a, Id& b) {
+  const Id low = std::min(a, b), high = std::max(a, b);
+  a = low;
+  b = high;
 }
 
-Id first_vertex(const Tetrahedron& t) {
-  return std::min(std::min(t.vertex[0], t.vertex[1]), std::min(t.vertex[2], t.vertex[3]));
+void write_tetrahedron(const Id* row, const Id* v, Id* out) {
+  for (int k = 0; k < 4; ++k) out[k] = row[v[k]];
+  settle(out[0], out[1]);
+  settle(out[2], out[3]);
+  settle(out[0], out[2]);
+  settle(out[1], out[3]);
+  settle(out[1], out[2]);
 }
 
-// Slots of the tetrahedra, those with the first vertex v at start[v] ... start[v + 1].
-struct Buckets {
-  Buffer<Id> start, slot;
-};
-
-Buckets bucket(const Mesh3& mesh, std::size_t n, Job& job) {
-  Buckets out;
-  std::vector<std::atomic<Id>> count(n + 1);
-  for (auto& c : count) c.store(0, std::memory_order_relaxed);
-  const Parts parts(mesh.slots, job);
-  job.run(parts.count(), [&](std::size_t part) {
-    for (std::size_t s = parts.begin(part); s < parts.end(part); ++s) {
-      const Tetrahedron& t = mesh.slot[s];
-      if (!is_real(t, mesh.infinity)) continue;
-      count[static_cast<std::size_t>(first_vertex(t)) + 1].fetch_add(1, std::memory_order_relaxed);
-    }
-  });
-  out.start = Buffer<Id>(n + 1);
-  Id sum = 0;
-  for (std::size_t v = 0; v <= n; ++v) {
-    sum += count[v].load(std::memory_order_relaxed);
-    out.start[v] = sum;
-    count[v].store(sum, std::memory_order_relaxed);
-  }
-  out.slot = Buffer<Id>(static_cast<std::size_t>(sum));
-  job.run(parts.count(), [&](std::size_t part) {
-    for (std::size_t s = parts.begin(part); s < parts.end(part); ++s) {
-      const Tetrahedron& t = mesh.slot[s];
-      if (!is_real(t, mesh.infinity)) continue;
-      const auto v = static_cast<std::size_t>(first_vertex(t));
-      out.slot[static_cast<std::size_t>(count[v].fetch_add(1, std::memory_order_relaxed))] =
-          static_cast<Id>(s);
-    }
-  });
-  return out;
+void write_triangle(const Id* row, const Id* v, Id* out) {
+  for (int k = 0; k < 3; ++k) out[k] = row[v[k]];
+  settle(out[0], out[1]);
+  settle(out[1], out[2]);
+  settle(out[0], out[1]);
 }
 
-// A tetrahedron among those with the same first vertex: its other vertices, ascending.
-struct Rest {
-  std::uint64_t second_third;
-  Id fourth, slot;
-
-  Rest(const Tetrahedron& t, Id s) : slot(s) {
-    Id v[4] = {t.vertex[0], t.vertex[1], t.vertex[2], t.vertex[3]};
-    auto settle = [&](int i, int j) {
-      const Id low = std::min(v[i], v[j]), high = std::max(v[i], v[j]);
-      v[i] = low;
-      v[j] = high;
-    };
-    settle(0, 1);
-    settle(2, 3);
-    settle(0, 2);
-    settle(1, 3);
-    settle(1, 2);
-    second_third =
-        (std::uint64_t{static_cast<std::uint32_t>(v[1])} << 32) | static_cast<std::uint32_t>(v[2]);
-    fourth = v[3];
-  }
-  bool operator<(const Rest& o) const {
-    return second_third != o.second_third ? second_third < o.second_third : fourth < o.fourth;
-  }
-};
-
-// Positions in lexicographic order of the points.
-void rank_vertices(const Point3* p, const Id* vertex, int* order) {
-  for (int i = 0; i < 4; ++i) order[i] = i;
-  auto settle = [&](int i, int j) {
-    if (p[vertex[order[j]]] < p[vertex[order[i]]]) std::swap(order[i], order[j]);
-  };
-  settle(0, 1);
-  settle(2, 3);
-  settle(0, 2);
-  settle(1, 3);
-  settle(1, 2);
-}
-
-template <class Row>
-void sort_row(Row* row, int count) {
-  for (int i = 1; i < count; ++i) {
-    for (int k = i; k > 0 && row[k] < row[k - 1]; --k) std::swap(row[k], row[k - 1]);
-  }
-}
-
-// Fills the arrays of a filtration; a part is a range of tetrahedra.
+// Fills the arrays of tetrahedra and triangles; a part is a range of tetrahedra.
 class Writer {
  public:
-  Writer(const SpatialOrder3& order, const Buffer<Tetrahedron>& mesh, Filtration3& out, Job& job)
+  Writer(const SpatialOrder3& order, const Compact3& mesh, Facets3& facets, Filtration3& out,
+         Job& job)
       : order_(order),
         p_(order.points.data()),
+        row_(order.row.data()),
         mesh_(mesh),
-        count_(mesh.size()),
+        facets_(facets),
         out_(out),
         job_(job),
-        parts_(count_, job, 1024),
-        measure_(order.lattice, -order.exponent) {}
+        parts_(mesh.count, job, 1024) {}
 
   void tetrahedra();
   void triangles();
-  void edges();
 
  private:
-  // Edges of a part, in blocks, as their number is not known beforehand.
-  struct Edge {
-    Id ends[2];
-    double value;
-  };
-  static constexpr std::size_t kBlock = 1 << 14;
-  struct Found {
-    std::vector<Buffer<Edge>> block;
-    std::size_t count = 0;
-  };
-
-  // A triangle belongs to the lower of its two tetrahedra, an edge to the lowest of all.
-  bool owns(std::size_t t, int k) const {
-    const Id code = mesh_[t].neighbor[k];
-    return code < 0 || static_cast<std::size_t>(code >> 2) > t;
-  }
-  void write_triangle(std::size_t t, int k, std::size_t f);
-  bool ring_value(std::size_t t, int i, int j, std::size_t lo, std::size_t hi, double* value);
-  void part_edges(std::size_t lo, std::size_t hi, Found& found);
+  void write_tetrahedra(std::size_t t, std::size_t end, TetrahedronBlock& block);
+  std::size_t number_triangles(std::size_t lo, std::size_t hi);
+  void write_triangles(const Id* owned, std::size_t count, std::size_t f, FlatBlock& block);
+  void flush(FlatBlock& block, const std::size_t* at);
 
   const SpatialOrder3& order_;
   const Point3* p_;
-  const Buffer<Tetrahedron>& mesh_;
-  std::size_t count_;
+  const Id* row_;
+  const Compact3& mesh_;
+  Facets3& facets_;
   Filtration3& out_;
   Job& job_;
   Parts parts_;
-  Measure3 measure_;
-  Buffer<std::uint8_t> attached_;   // per tetrahedron, see Measure3::Solid
-  Buffer<std::uint8_t> obtuse_;     // per facet 4t + k: position in t of its obtuse vertex, or k
-  Buffer<std::uint8_t> done_;       // edges of a tetrahedron seen by a lower one of the same part
-  Buffer<Id> facet_;                // per facet 4t + k: its triangle
+  Buffer<std::uint8_t> attached_;   // per tetrahedron, see TetrahedronBlock
   std::vector<std::size_t> first_;  // first triangle of each part
 };
 
+void Writer::write_tetrahedra(std::size_t t, std::size_t end, TetrahedronBlock& block) {
+  for (std::size_t i = t; i < end; ++i) {
+    const Id* v = &mesh_.vertex[4 * i];
+    block.push(p_[v[0]], p_[v[1]], p_[v[2]], p_[v[3]]);
+    write_tetrahedron(row_, v, &out_.tetrahedra[4 * i]);
+  }
+  block.measure(order_.lattice, order_.exponent);
+  std::copy(block.radius, block.radius + block.count, &out_.tetrahedron_radii[t]);
+  std::copy(block.attached, block.attached + block.count, &attached_[t]);
+  std::copy(block.obtuse, block.obtuse + block.count, &facets_.obtuse[t]);
+  block.count = 0;
+}
+
+// Counts the triangles of each tetrahedron of a part, from 0.
+std::size_t Writer::number_triangles(std::size_t lo, std::size_t hi) {
+  std::size_t triangles = 0;
+  for (std::size_t t = lo; t < hi; ++t) {
+    const Id* code = &mesh_.neighbor[4 * t];
+    int before[4], count = 0;
+    for (int k = 0; k < 4; ++k) {
+      before[k] = count;
+      count += Facets3::owns(t, code[k]);
+    }
+    facets_.first[t] = static_cast<Id>(triangles);
+    facets_.before[t] =
+        static_cast<std::uint8_t>((before[1] << 2) | (before[2] << 4) | (before[3] << 6));
+    triangles += static_cast<std::size_t>(count);
+  }
+  return triangles;
+}
+
 void Writer::tetrahedra() {
-  out_.tetrahedra = Buffer<Id>(4 * count_);
-  out_.tetrahedron_radii = Buffer<double>(count_);
-  attached_ = Buffer<std::uint8_t>(count_);
+  out_.tetrahedra = Buffer<Id>(4 * mesh_.count);
+  out_.tetrahedron_radii = Buffer<double>(mesh_.count);
+  attached_ = Buffer<std::uint8_t>(mesh_.count);
+  facets_.obtuse = Buffer<std::uint8_t>(mesh_.count);
+  facets_.before = Buffer<std::uint8_t>(mesh_.count);
+  facets_.first = Buffer<Id>(mesh_.count);
   first_.assign(parts_.count() + 1, 0);
   job_.run(parts_.count(), [&](std::size_t part) {
-    std::size_t triangles = 0;
-    for (std::size_t t = parts_.begin(part); t < parts_.end(part); ++t) {
-      const Id* v = mesh_[t].vertex;
-      const Point3 p[4] = {p_[v[0]], p_[v[1]], p_[v[2]], p_[v[3]]};
-      const Measure3::Solid m = measure_.tetrahedron(p);
-      out_.tetrahedron_radii[t] = m.radius;
-      attached_[t] = static_cast<std::uint8_t>(m.attached);
-      Id* row = &out_.tetrahedra[4 * t];
-      for (int k = 0; k < 4; ++k) {
-        row[k] = order_.row[static_cast<std::size_t>(v[k])];
-        triangles += owns(t, k) ? 1 : 0;
-      }
-      sort_row(row, 4);
+    TetrahedronBlock block;
+    const std::size_t hi = parts_.end(part);
+    for (std::size_t t = parts_.begin(part); t < hi; t += kBlock) {
+      write_tetrahedra(t, std::min(t + kBlock, hi), block);
     }
-    first_[part + 1] = triangles;
+    first_[part + 1] = number_triangles(parts_.begin(part), hi);
     job_.advance(0.1 / static_cast<double>(parts_.count()));
   });
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
 }
 
-void Writer::write_triangle(std::size_t t, int k, std::size_t f) {
-  const Tetrahedron& tet = mesh_[t];
-  int at[3];  // positions in t, in lexicographic order as those of t are
-  for (int i = 0, m = 0; i < 4; ++i) {
-    if (i != k) at[m++] = i;
+void Writer::flush(FlatBlock& block, const std::size_t* at) {
+  block.measure(order_.lattice, order_.exponent);
+  for (std::size_t i = 0; i < block.count; ++i) {
+    double& radius = out_.triangle_radii[at[i]];
+    radius = std::min(radius, block.radius[i]);
   }
-  const Point3 p[3] = {p_[tet.vertex[at[0]]], p_[tet.vertex[at[1]]], p_[tet.vertex[at[2]]]};
-  const Measure3::Flat m = measure_.triangle(p);
-  const Id code = tet.neighbor[k];
-  double least = out_.tetrahedron_radii[t];
-  bool attached = (attached_[t] >> k & 1) != 0;
-  facet_[4 * t + static_cast<std::size_t>(k)] = static_cast<Id>(f);
-  obtuse_[4 * t + static_cast<std::size_t>(k)] =
-      static_cast<std::uint8_t>(m.obtuse == 3 ? k : at[m.obtuse]);
-  if (code >= 0) {
-    const auto other = static_cast<std::size_t>(code >> 2);
-    const int j = code & 3;
-    least = std::min(least, out_.tetrahedron_radii[other]);
-    attached = attached || (attached_[other] >> j & 1) != 0;
-    facet_[static_cast<std::size_t>(code)] = static_cast<Id>(f);
-    // The same three vertices stand in the same order on the other side.
-    const int there = m.obtuse == 3 ? j : m.obtuse + (m.obtuse >= j ? 1 : 0);
-    obtuse_[static_cast<std::size_t>(code)] = static_cast<std::uint8_t>(there);
+  block.count = 0;
+}
+
+// The triangles that are facets owned[i] = 4t + k, from row f on: those that are attached
+// enter with their first tetrahedron.
+void Writer::write_triangles(const Id* owned, std::size_t count, std::size_t f, FlatBlock& block) {
+  std::size_t free[FlatBlock::kSize], at[FlatBlock::kSize];  // owned[free[i]] is not attached
+  std::size_t frees = 0;
+  auto measure = [&] {
+    for (std::size_t i = 0; i < frees; ++i) {
+      const std::size_t t = static_cast<std::size_t>(owned[free[i]] >> 2);
+      const Id* v = &mesh_.vertex[4 * t];
+      const int k = owned[free[i]] & 3;
+      block.push(p_[v[k == 0 ? 1 : 0]], p_[v[k <= 1 ? 2 : 1]], p_[v[k <= 2 ? 3 : 2]]);
+      at[i] = f + free[i];
+    }
+    flush(block, at);
+    frees = 0;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const Id code = mesh_.neighbor[static_cast<std::size_t>(owned[i])];
+    const std::size_t t = static_cast<std::size_t>(owned[i] >> 2);
+    const std::size_t other = code < 0 ? t : static_cast<std::size_t>(code >> 2);
+    const int k = owned[i] & 3, j = code < 0 ? k : code & 3;
+    out_.triangle_radii[f + i] = std::min(out_.tetrahedron_radii[t], out_.tetrahedron_radii[other]);
+    out_.triangle_tetrahedra[2 * (f + i)] = static_cast<Id>(t);
+    out_.triangle_tetrahedra[2 * (f + i) + 1] = code < 0 ? -1 : code >> 2;
+    const Id* v = &mesh_.vertex[4 * t];
+    const Id corner[3] = {v[k == 0 ? 1 : 0], v[k <= 1 ? 2 : 1], v[k <= 2 ? 3 : 2]};
+    write_triangle(row_, corner, &out_.triangles[3 * (f + i)]);
+    free[frees] = i;
+    frees += (((attached_[t] >> k) | (attached_[other] >> j)) & 1) == 0 ? 1 : 0;
+    if (frees == FlatBlock::kSize) measure();
   }
-  out_.triangle_radii[f] = attached ? least : std::min(m.radius, least);
-  out_.triangle_tetrahedra[2 * f] = static_cast<Id>(t);
-  out_.triangle_tetrahedra[2 * f + 1] = code < 0 ? -1 : code >> 2;
-  Id* row = &out_.triangles[3 * f];
-  for (int i = 0; i < 3; ++i) row[i] = order_.row[static_cast<std::size_t>(tet.vertex[at[i]])];
-  sort_row(row, 3);
+  measure();
 }
 
 void Writer::triangles() {
@@ -221,171 +170,42 @@ void Writer::triangles() {
   out_.triangles = Buffer<Id>(3 * count);
   out_.triangle_radii = Buffer<double>(count);
   out_.triangle_tetrahedra = Buffer<Id>(2 * count);
-  facet_ = Buffer<Id>(4 * count_);
-  obtuse_ = Buffer<std::uint8_t>(4 * count_);
   job_.run(parts_.count(), [&](std::size_t part) {
+    FlatBlock block;
+    Id owned[4 * kBlock + 4];
     std::size_t f = first_[part];
-    for (std::size_t t = parts_.begin(part); t < parts_.end(part); ++t) {
-      for (int k = 0; k < 4; ++k) {
-        if (owns(t, k)) write_triangle(t, k, f++);
+    const std::size_t hi = parts_.end(part);
+    for (std::size_t t = parts_.begin(part); t < hi;) {
+      std::size_t found = 0;
+      for (const std::size_t end = std::min(t + kBlock, hi); t < end; ++t) {
+        facets_.first[t] += static_cast<Id>(first_[part]);
+        for (std::size_t k = 0; k < 4; ++k) {
+          owned[found] = static_cast<Id>(4 * t + k);
+          found += static_cast<std::size_t>(Facets3::owns(t, mesh_.neighbor[4 * t + k]));
+        }
       }
+      write_triangles(owned, found, f, block);
+      f += found;
     }
     job_.advance(0.1 / static_cast<double>(parts_.count()));
   });
 }
 
-// One bit for each edge of a tetrahedron, by the positions of its ends.
-constexpr std::uint8_t kEdgeBit[4][4] = {
-    {0, 1, 2, 4}, {1, 0, 8, 16}, {2, 8, 0, 32}, {4, 16, 32, 0}};
-
-// Goes around the edge between the vertices at positions i and j of t. False if a lower
-// tetrahedron has it. Those of the same part that are passed need not start again.
-bool Writer::ring_value(std::size_t t, int i, int j, std::size_t lo, std::size_t hi,
-                        double* value) {
-  const Id u = mesh_[t].vertex[i], v = mesh_[t].vertex[j];
-  int side[2];  // the other two positions
-  for (int k = 0, m = 0; k < 4; ++k) {
-    if (k != i && k != j) side[m++] = k;
-  }
-  bool attached = false;
-  double least = kInf;
-  for (int direction = 0; direction < 2; ++direction) {
-    std::size_t s = t;
-    int leave = side[direction], keep = side[1 - direction];  // facet to cross, its apex
-    for (;;) {
-      const std::size_t facet = 4 * s + static_cast<std::size_t>(leave);
-      attached = attached || obtuse_[facet] == keep;
-      least = std::min(least, out_.triangle_radii[static_cast<std::size_t>(facet_[facet])]);
-      const Id code = mesh_[s].neighbor[leave], apex = mesh_[s].vertex[keep];
-      if (code < 0) break;  // the hull: go around the other way too
-      s = static_cast<std::size_t>(code >> 2);
-      if (s == t) {
-        *value = attached ? least
-                          : std::min(measure_.edge(p_[std::min(u, v)], p_[std::max(u, v)]), least);
-        return true;
-      }
-      if (s < t) return false;
-      const int back = code & 3;
-      int next = 0;
-      while (mesh_[s].vertex[next] != apex) ++next;
-      if (s >= lo && s < hi) {
-        // The two positions that are not on the edge are `back` and `next`.
-        int a = 0;
-        while (a == back || a == next) ++a;
-        const int b = 6 - back - next - a;
-        done_[s] |= kEdgeBit[a][b];
-      }
-      leave = next;
-      keep = back;
-    }
-  }
-  *value =
-      attached ? least : std::min(measure_.edge(p_[std::min(u, v)], p_[std::max(u, v)]), least);
-  return true;
-}
-
-void Writer::part_edges(std::size_t lo, std::size_t hi, Found& found) {
-  for (std::size_t t = lo; t < hi; ++t) {
-    if (((t - lo) & 0x3fff) == 0) job_.poll();
-    for (int i = 0; i < 4; ++i) {
-      for (int j = i + 1; j < 4; ++j) {
-        double value;
-        if ((done_[t] & kEdgeBit[i][j]) != 0 || !ring_value(t, i, j, lo, hi, &value)) continue;
-        const Id a = order_.row[static_cast<std::size_t>(mesh_[t].vertex[i])];
-        const Id b = order_.row[static_cast<std::size_t>(mesh_[t].vertex[j])];
-        if (found.count % kBlock == 0) found.block.emplace_back(kBlock);
-        found.block.back()[found.count++ % kBlock] = {{std::min(a, b), std::max(a, b)}, value};
-      }
-    }
-  }
-}
-
-void Writer::edges() {
-  done_ = Buffer<std::uint8_t>(count_);
-  std::fill(done_.begin(), done_.end(), std::uint8_t{0});
-  std::vector<Found> found(parts_.count());
-  job_.run(parts_.count(), [&](std::size_t part) {
-    part_edges(parts_.begin(part), parts_.end(part), found[part]);
-    job_.advance(0.2 / static_cast<double>(parts_.count()));
-  });
-  std::vector<std::size_t> first(parts_.count() + 1, 0);
-  for (std::size_t i = 0; i < found.size(); ++i) first[i + 1] = first[i] + found[i].count;
-  out_.edges = Buffer<Id>(2 * first.back());
-  out_.edge_radii = Buffer<double>(first.back());
-  job_.run(parts_.count(), [&](std::size_t part) {
-    for (std::size_t i = 0; i < found[part].count; ++i) {
-      const Edge& e = found[part].block[i / kBlock][i % kBlock];
-      std::copy(e.ends, e.ends + 2, &out_.edges[2 * (first[part] + i)]);
-      out_.edge_radii[first[part] + i] = e.value;
-    }
-  });
-}
-
 }  // namespace
 
-Buffer<Tetrahedron> compact3(const SpatialOrder3& order, Mesh3&& triangulated, Job& job) {
-  const Mesh3 mesh = std::move(triangulated);  // gone when this is over
-  const std::size_t n = order.size;
-  const Point3* p = order.points.data();
-  if (mesh.slots == 0) return {};
-  Buckets buckets = bucket(mesh, n, job);
-  const Parts parts(n, job);
-  Buffer<Id> id(mesh.slots);  // of each slot
-  job.run(Parts(mesh.slots, job).count(), [&](std::size_t part) {
-    const Parts slots(mesh.slots, job);
-    std::fill(id.begin() + slots.begin(part), id.begin() + slots.end(part), -1);
-  });
-  job.run(parts.count(), [&](std::size_t part) {
-    std::vector<Rest> bucket;
-    for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
-      bucket.clear();
-      for (Id i = buckets.start[v]; i < buckets.start[v + 1]; ++i) {
-        const Id s = buckets.slot[static_cast<std::size_t>(i)];
-        bucket.emplace_back(mesh.slot[static_cast<std::size_t>(s)], s);
-      }
-      std::sort(bucket.begin(), bucket.end());
-      Id i = buckets.start[v];
-      for (const Rest& r : bucket) {
-        id[static_cast<std::size_t>(r.slot)] = i;
-        buckets.slot[static_cast<std::size_t>(i++)] = r.slot;
-      }
-    }
-  });
-  const std::size_t count = buckets.slot.size();
-  Buffer<Tetrahedron> out(count);
-  Buffer<std::uint8_t> place(4 * mesh.slots);  // where each vertex of a slot has gone
-  const Parts rows(count, job);
-  job.run(rows.count(), [&](std::size_t part) {
-    for (std::size_t t = rows.begin(part); t < rows.end(part); ++t) {
-      const auto s = static_cast<std::size_t>(buckets.slot[t]);
-      int order4[4];
-      rank_vertices(p, mesh.slot[s].vertex, order4);
-      for (int k = 0; k < 4; ++k) {
-        out[t].vertex[k] = mesh.slot[s].vertex[order4[k]];
-        place[4 * s + static_cast<std::size_t>(order4[k])] = static_cast<std::uint8_t>(k);
-      }
-    }
-  });
-  job.run(rows.count(), [&](std::size_t part) {
-    for (std::size_t t = rows.begin(part); t < rows.end(part); ++t) {
-      const auto s = static_cast<std::size_t>(buckets.slot[t]);
-      for (std::size_t k = 0; k < 4; ++k) {
-        const Id code = mesh.slot[s].neighbor[k], other = id[static_cast<std::size_t>(code >> 2)];
-        out[t].neighbor[place[4 * s + k]] =
-            other < 0 ? -1 : 4 * other + place[static_cast<std::size_t>(code)];
-      }
-    }
-  });
-  return out;
-}
-
-Filtration3 filtration3(const SpatialOrder3& order, const Buffer<Tetrahedron>& mesh, Job& job) {
+Filtration3 filtration3(const SpatialOrder3& order, Compact3&& compact, Job& job) {
   Filtration3 out;
-  if (mesh.size() == 0) return out;
-  Writer writer(order, mesh, out, job);
-  writer.tetrahedra();
-  writer.triangles();
-  writer.edges();
+  Compact3 mesh = std::move(compact);
+  if (mesh.count == 0) return out;
+  Facets3 facets;
+  {
+    Writer writer(order, mesh, facets, out, job);
+    writer.tetrahedra();
+    writer.triangles();
+  }
+  Edges3 edges = edges3(order, std::move(mesh), std::move(facets), out.triangle_radii, job);
+  out.edges = std::move(edges.ends);
+  out.edge_radii = std::move(edges.radii);
   return out;
 }
 

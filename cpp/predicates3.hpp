@@ -26,11 +26,16 @@ inline bool operator<(Point3 a, Point3 b) {  // lexicographic
 // All coordinates are multiples of `unit` (0: nothing known); see Lattice.
 struct Lattice3 {
   double unit = 0.0;
-  double exact3 = 0.0, exact5 = 0.0;  // sums of products of three or five below these are exact
+  // Sums of products of two, three, five or six below these are exact.
+  double exact2 = 0.0, exact3 = 0.0, exact5 = 0.0, exact6 = 0.0;
 
   Lattice3() = default;
   explicit Lattice3(double u)
-      : unit(u), exact3(std::ldexp(u * u * u, 53)), exact5(std::ldexp(u * u * u * u * u, 53)) {}
+      : unit(u),
+        exact2(std::ldexp(u * u, 53)),
+        exact3(std::ldexp(u * u * u, 53)),
+        exact5(std::ldexp(u * u * u * u * u, 53)),
+        exact6(std::ldexp(u * u * u * u * u * u, 53)) {}
 };
 
 template <class R>
@@ -80,9 +85,10 @@ inline int orient3(Point3 a, Point3 b, Point3 c, Point3 d, const Lattice3& latti
 inline int dot3(Point3 a, Point3 b, Point3 c, const Lattice3& lattice) {
   const Vector3<double> u = a - c, v = b - c;
   const double x = u.x * v.x, y = u.y * v.y, z = u.z * v.z, s = x + y + z;
-  const double bound = 8.0 * kEps * (std::fabs(x) + std::fabs(y) + std::fabs(z));
+  const double sum = std::fabs(x) + std::fabs(y) + std::fabs(z), bound = 8.0 * kEps * sum;
   if (s > bound) return 1;
   if (s < -bound) return -1;
+  if (sum < lattice.exact2) return sign_of(s);
   return dot3_exact(a, b, c, lattice);
 }
 

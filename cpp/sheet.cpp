@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "big.hpp"
-#include "values3.hpp"
 
 namespace alphamesh {
 
@@ -42,19 +41,19 @@ void SheetTriangles::push(SheetPoint a, SheetPoint b, SheetPoint c) {
   const SheetPoint p[5] = {a, b, c, a, b};
   int first = b < a ? 1 : 0;
   first = c < p[first] ? 2 : first;
-  for (int i = 0; i < 3; ++i) p_[count][i] = p[first + i];
+  block_.push(p[first], p[first + 1], p[first + 2]);
   first_[count++] = first;
 }
 
 void SheetTriangles::measure(const Lattice& lattice, int exponent) {
-  const Lattice3 ties(lattice.unit);
-  const Measure3 measure(ties, -exponent);
+  block_.measure(Lattice3(lattice.unit), exponent);
   for (std::size_t i = 0; i < count; ++i) {
-    const Measure3::Flat m = measure.triangle(p_[i]);
-    radius[i] = m.radius;
-    // Opposite to vertex k of p_ is edge k + 1 of the same.
-    obtuse[i] = m.obtuse == 3 ? TriangleBlock::kNoEdge : (first_[i] + m.obtuse + 1) % 3;
+    radius[i] = block_.radius[i];
+    // Opposite to vertex k is edge k + 1.
+    const std::int32_t k = block_.obtuse[i];
+    obtuse[i] = k == 3 ? TriangleBlock::kNoEdge : (first_[i] + k + 1) % 3;
   }
+  block_.count = 0;
 }
 
 namespace {

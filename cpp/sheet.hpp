@@ -14,6 +14,7 @@
 #include "predicates3.hpp"
 #include "spatial_sort.hpp"
 #include "values2.hpp"
+#include "values3.hpp"
 
 namespace alphamesh {
 
@@ -62,8 +63,8 @@ inline bool in_circle(SheetPoint a, SheetPoint b, SheetPoint c, SheetPoint d,
   return (s != 0 ? s : in_circle_perturbed(a, b, c, d, lattice)) > 0;
 }
 
-// As TriangleBlock and EdgeBlock, one at a time: such clouds are rare. A cloud in the plane
-// of two axes gets the same values as in two dimensions, to the last bit.
+// As TriangleBlock and EdgeBlock, with the metric of space. A cloud in the plane of two axes
+// gets the same values as in two dimensions, to the last bit.
 class SheetTriangles {
  public:
   std::size_t count = 0;
@@ -74,7 +75,7 @@ class SheetTriangles {
   void measure(const Lattice& lattice, int exponent);
 
  private:
-  Point3 p_[TriangleBlock::kSize][3];
+  FlatBlock block_;
   std::int32_t first_[TriangleBlock::kSize];
 };
 

@@ -1,0 +1,36 @@
+// The edges of a triangulation of space, each found once by going around it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "compact3.hpp"
+#include "memory.hpp"
+#include "parallel.hpp"
+#include "spatial_sort.hpp"
+
+namespace alphamesh {
+
+// What is known of the facets. One belongs to the lower of its two tetrahedra, an edge to
+// the lowest of all around it.
+struct Facets3 {
+  Buffer<std::int32_t> first;   // per tetrahedron: the first triangle that belongs to it
+  Buffer<std::uint8_t> before;  // how many of its own precede facet k, two bits each
+  Buffer<std::uint8_t> obtuse;  // see TetrahedronBlock
+
+  // Whether the facet of t belongs to it, given what lies across; -1 wraps around.
+  static int owns(std::size_t t, std::int32_t code) {
+    return static_cast<std::uint32_t>(code) > 4 * static_cast<std::uint32_t>(t) + 3 ? 1 : 0;
+  }
+};
+
+struct Edges3 {
+  Buffer<std::int32_t> ends;  // (E, 2)
+  Buffer<double> radii;       // (E,)
+};
+
+// Uses up the mesh and the facets, so that their memory can hold the result.
+Edges3 edges3(const SpatialOrder3& order, Compact3&& mesh, Facets3&& facets,
+              const Buffer<double>& triangle_radii, Job& job);
+
+}  // namespace alphamesh

@@ -1,0 +1,278 @@
+#include "worker3.hpp"
+
+#include <cmath>
+
+namespace alphamesh {
+
+using Id = std::int32_t;
+
+void Worker::take_range(Id first, Id last) {
+  first_ = first;
+  last_ = last;
+  out_of_room_ = false;
+}
+
+// Stands on a tetrahedron of its own, or finds one.
+bool Worker::has_start() {
+  if (here_ >= 0 && tet(here_).vertex[0] >= 0 && owns_all(here_)) return true;
+  const auto used = static_cast<Id>(store_.used.load());
+  const Id from = static_cast<Id>(std::int64_t{used} * first_ / std::max(1, store_.infinity));
+  for (Id i = 0; i < used; ++i) {
+    const Id t = from + i < used ? from + i : from + i - used;
+    if (tet(t).vertex[0] >= 0 && owns_all(t)) {
+      here_ = t;
+      return true;
+    }
+  }
+  return false;
+}
+
+Id Worker::new_slot() {
+  if (!free_.empty()) {
+    const Id t = free_.back();
+    free_.pop_back();
+    return t;
+  }
+  return static_cast<Id>(chunk_++);
+}
+
+// Makes sure that so many new slots can be had.
+bool Worker::provide(std::size_t slots) {
+  while (free_.size() + (chunk_end_ - chunk_) < slots) {
+    while (chunk_ < chunk_end_) free_.push_back(static_cast<Id>(chunk_++));
+    const std::size_t begin = store_.used.fetch_add(kChunk);
+    if (begin + kChunk > store_.slot.size()) {
+      store_.used.fetch_sub(kChunk);
+      out_of_room_ = true;
+      return false;
+    }
+    chunk_ = begin;
+    chunk_end_ = begin + kChunk;
+    for (std::size_t t = begin; t < chunk_end_; ++t) store_.slot[t].vertex[0] = -1;
+  }
+  return true;
+}
+
+int Worker::infinite(Id t) {
+  for (int i = 0; i < 4; ++i) {
+    if (vertex(t, i) == store_.infinity) return i;
+  }
+  return -1;
+}
+
+bool Worker::conflict(Id t, Point3 q) {
+  const Verdict v = test(store_.sphere[static_cast<std::size_t>(t)], q);
+  if (v.value > v.bound) return true;
+  if (v.value < -v.bound) return false;
+  return conflict_exact(t, q, v);
+}
+
+bool Worker::conflict_exact(Id t, Point3 q, Verdict verdict) {
+  const int ghost = infinite(t);
+  Point3 p[4];
+  for (int i = 0; i < 4; ++i) p[i] = i == ghost ? q : store_.p[vertex(t, i)];
+  if (ghost >= 0) {
+    const int side = orient3(p[0], p[1], p[2], p[3], store_.lattice);
+    if (side != 0) return side > 0;
+    // In the plane of a hull facet: inside its circle if inside the sphere behind it.
+    return conflict(tet(t).neighbor[ghost] >> 2, q);
+  }
+  int s = 0;
+  if (verdict.bound < store_.exact) {
+    s = sign_of(verdict.value);
+  } else {
+    s = in_sphere_exact(p[0], p[1], p[2], p[3], q, store_.lattice);
+  }
+  return s != 0 ? s > 0 : in_sphere_perturbed(p[0], p[1], p[2], p[3], q, store_.lattice);
+}
+
+// The facet behind which q lies, by the largest distance in plain arithmetic; -1 if none.
+int Worker::way_out(Id t, Point3 q, int entry) {
+  Vector3<double> d[4];
+  for (int i = 0; i < 4; ++i) d[i] = store_.p[vertex(t, i)] - q;
+  const Vector3<double> cd = cross(d[2], d[3]), ab = cross(d[0], d[1]);
+  const double side[4] = {dot(d[1], cd), -dot(d[0], cd), dot(d[3], ab), -dot(d[2], ab)};
+  int best = -1;
+  double farthest = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    if (i == entry || side[i] >= 0.0) continue;
+    const Vector3<double>&a = d[kFacet[i][0]], &b = d[kFacet[i][1]], &c = d[kFacet[i][2]];
+    const Vector3<double> n = cross(Vector3<double>{b.x - a.x, b.y - a.y, b.z - a.z},
+                                    Vector3<double>{c.x - a.x, c.y - a.y, c.z - a.z});
+    const double distance_sq = side[i] * side[i] / dot(n, n);
+    if (!(distance_sq <= farthest)) {
+      farthest = distance_sq;
+      best = i;
+    }
+  }
+  return best;
+}
+
+// Walks to a tetrahedron whose sphere contains q; -1 if the way leaves what is ours.
+Id Worker::locate(Point3 q) {
+  Id t = here_;
+  int entry = -1;
+  for (int step = 0; step < 1000; ++step) {
+    if (conflict(t, q)) return t;
+    const int ghost = infinite(t);
+    const int exit = ghost >= 0 ? ghost : way_out(t, q, entry);
+    if (exit < 0) break;
+    const Id code = tet(t).neighbor[exit];
+    t = code >> 2;
+    entry = code & 3;
+    if (!owns_all(t)) return -1;
+  }
+  return locate_exactly(t, q);
+}
+
+// The same with exact signs and random turns, which always arrives.
+Id Worker::locate_exactly(Id t, Point3 q) {
+  while (!conflict(t, q)) {
+    int exit = infinite(t);
+    random_ = random_ * 1664525u + 1013904223u;
+    for (int k = 0; exit < 0 && k < 4; ++k) {
+      const int i = static_cast<int>((random_ >> 30) + static_cast<unsigned>(k)) & 3;
+      Point3 p[4];
+      for (int j = 0; j < 4; ++j) p[j] = j == i ? q : store_.p[vertex(t, j)];
+      if (orient3(p[0], p[1], p[2], p[3], store_.lattice) < 0) exit = i;
+    }
+    t = tet(t).neighbor[exit] >> 2;
+    if (!owns_all(t)) return -1;
+  }
+  return t;
+}
+
+// All tetrahedra whose spheres contain q, and the facets around them. False, and nothing
+// changed, if one of them is not ours.
+bool Worker::collect(Id start, Point3 q) {
+  cavity_.clear();
+  border_.clear();
+  tet(start).vertex[3] |= kMark;
+  cavity_.push_back(start);
+  for (std::size_t k = 0; k < cavity_.size(); ++k) {
+    const Id t = cavity_[k];
+    for (Id i = 0; i < 4; ++i) {
+      const Id code = tet(t).neighbor[i], u = code >> 2;
+      if (tet(u).vertex[3] < 0) continue;
+      if (!conflict(u, q)) {
+        border_.push_back({4 * t + i, code, {0, 0, 0}, {0, 0, 0}, -1});
+        continue;
+      }
+      if (!owns_all(u)) {
+        unmark();
+        return false;
+      }
+      tet(u).vertex[3] |= kMark;
+      cavity_.push_back(u);
+    }
+  }
+  return true;
+}
+
+void Worker::unmark() {
+  for (const Id t : cavity_) tet(t).vertex[3] &= kVertex;
+}
+
+// Numbers the vertices of the border from 0 and sees them from q.
+void Worker::number_vertices(Point3 q) {
+  arm_.clear();
+  for (Border& b : border_) {
+    const Id t = b.inner >> 2;
+    for (int k = 0; k < 3; ++k) {
+      const Id v = vertex(t, kFacet[b.inner & 3][k]);
+      Id& local = local_[static_cast<std::size_t>(v)];
+      if (local < 0) {
+        local = static_cast<Id>(arm_.size());
+        arm_.push_back({0.0, 0.0, 0.0, 1.0, 0.0, v});
+      }
+      b.vertex[k] = v;
+      b.local[k] = local;
+    }
+  }
+  for (Arm& a : arm_) {
+    local_[static_cast<std::size_t>(a.vertex)] = -1;
+    if (a.vertex == store_.infinity) continue;
+    const Vector3<double> d = store_.p[a.vertex] - q;
+    const double square = dot(d, d);
+    a = {d.x, d.y, d.z, square, std::sqrt(square), a.vertex};
+  }
+}
+
+// Puts a tetrahedron on each facet of the border; the slots of the cavity come first.
+void Worker::fill_star(Id point, Point3 q) {
+  for (std::size_t k = 0; k < border_.size(); ++k) {
+    Border& b = border_[k];
+    b.made = k < cavity_.size() ? cavity_[k] : new_slot();
+    tet(b.made) = {{point, b.vertex[0], b.vertex[1], b.vertex[2]}, {b.outer, -1, -1, -1}};
+    tet(b.outer >> 2).neighbor[b.outer & 3] = 4 * b.made;
+    store_.sphere[static_cast<std::size_t>(b.made)] = sphere_of(
+        q, arm_[static_cast<std::size_t>(b.local[0])], arm_[static_cast<std::size_t>(b.local[1])],
+        arm_[static_cast<std::size_t>(b.local[2])]);
+  }
+  for (std::size_t k = border_.size(); k < cavity_.size(); ++k) {
+    tet(cavity_[k]).vertex[0] = -1;
+    tet(cavity_[k]).vertex[3] = 0;
+    free_.push_back(cavity_[k]);
+  }
+}
+
+// Around the new point, facet i of a tetrahedron belongs to the directed edge from local
+// vertex i + 1 to i + 2; the neighbour has the same edge the other way.
+void Worker::link_by_table() {
+  for (const Border& b : border_) {
+    for (int i = 0; i < 3; ++i) {
+      const auto from = static_cast<std::size_t>(b.local[(i + 1) % 3]);
+      const auto to = static_cast<std::size_t>(b.local[(i + 2) % 3]);
+      table_[from * kTable + to] = 4 * b.made + i + 1;
+    }
+  }
+  for (const Border& b : border_) {
+    for (int i = 0; i < 3; ++i) {
+      const auto from = static_cast<std::size_t>(b.local[(i + 1) % 3]);
+      const auto to = static_cast<std::size_t>(b.local[(i + 2) % 3]);
+      tet(b.made).neighbor[i + 1] = table_[to * kTable + from];
+    }
+  }
+}
+
+void Worker::link_by_sorting() {
+  directed_.clear();
+  auto key = [](Id from, Id to) {
+    return (std::uint64_t{static_cast<std::uint32_t>(from)} << 32) | static_cast<std::uint32_t>(to);
+  };
+  for (const Border& b : border_) {
+    for (int i = 0; i < 3; ++i) {
+      directed_.emplace_back(key(b.local[(i + 1) % 3], b.local[(i + 2) % 3]), 4 * b.made + i + 1);
+    }
+  }
+  std::sort(directed_.begin(), directed_.end());
+  for (const auto& [edge, code] : directed_) {
+    const std::uint64_t reverse = edge << 32 | edge >> 32;
+    const auto found =
+        std::lower_bound(directed_.begin(), directed_.end(), std::make_pair(reverse, Id{0}));
+    tet(code >> 2).neighbor[code & 3] = found->second;
+  }
+}
+
+// False, and nothing changed, if the cavity is not all ours or room is lacking.
+bool Worker::insert(Id point) {
+  const Point3 q = store_.p[point];
+  const Id start = locate(q);
+  if (start < 0 || !collect(start, q)) return false;
+  const std::size_t old = cavity_.size(), made = border_.size();
+  if (made > old && !provide(made - old)) {
+    unmark();
+    return false;
+  }
+  number_vertices(q);
+  fill_star(point, q);
+  if (arm_.size() <= kTable) {
+    link_by_table();
+  } else {
+    link_by_sorting();
+  }
+  here_ = border_[0].made;
+  return true;
+}
+
+}  // namespace alphamesh

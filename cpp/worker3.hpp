@@ -1,0 +1,109 @@
+// Insertion of points into a triangulation of space: the walk, the cavity, the star.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include "delaunay3.hpp"
+#include "memory.hpp"
+#include "sphere3.hpp"
+
+namespace alphamesh {
+
+constexpr std::int32_t kMark =
+    static_cast<std::int32_t>(0x80000000);  // in vertex[3]: in the cavity
+constexpr std::int32_t kVertex = 0x7fffffff;
+// (p, facet opposite to i) is positive if the tetrahedron with p in place of i is.
+constexpr int kFacet[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+// What all workers share. In parallel, each keeps to its own tetrahedra; only the counter
+// of slots is common.
+struct Store {
+  const Point3* p;
+  std::int32_t infinity;
+  Lattice3 lattice;
+  double exact = 0.0;  // a bound below this means that nothing was rounded
+  Buffer<Tetrahedron> slot;
+  Buffer<Sphere> sphere;
+  std::atomic<std::size_t> used{0};
+
+  void reserve(std::size_t slots) {
+    if (slots <= slot.size()) return;
+    if (slots >= std::size_t{1} << 29) throw std::bad_alloc();
+    Buffer<Tetrahedron> more(slots);
+    Buffer<Sphere> spheres(slots);
+    std::copy(slot.data(), slot.data() + used.load(), more.begin());
+    std::copy(sphere.data(), sphere.data() + used.load(), spheres.begin());
+    slot = std::move(more);
+    sphere = std::move(spheres);
+  }
+};
+
+// Inserts points numbered first_ ... last_ - 1.
+class Worker {
+ public:
+  using Id = std::int32_t;
+
+  Worker(Store& store) : store_(store), local_(static_cast<std::size_t>(store.infinity) + 1) {
+    std::fill(local_.begin(), local_.end(), -1);
+    table_.resize(kTable * kTable);
+  }
+
+  void take_range(Id first, Id last);
+  bool insert(Id point);
+  bool out_of_room() const { return out_of_room_; }
+  bool provide(std::size_t slots);
+  Id new_slot();
+  void start_at(Id t) { here_ = t; }
+  bool has_start();
+
+ private:
+  struct Border {
+    Id inner, outer;  // facet of the cavity, as 4t + i from either side
+    Id vertex[3], local[3];
+    Id made;
+  };
+
+  static constexpr std::size_t kTable = 256;
+  static constexpr std::size_t kChunk = 1024;
+
+  Tetrahedron& tet(Id t) { return store_.slot[static_cast<std::size_t>(t)]; }
+  Id vertex(Id t, int i) { return tet(t).vertex[i] & kVertex; }
+  bool owns(Id v) const { return (v >= first_ && v < last_) || v == store_.infinity; }
+  bool owns_all(Id t) {
+    const Id* v = tet(t).vertex;
+    return owns(v[0]) && owns(v[1]) && owns(v[2]) && owns(v[3] & kVertex);
+  }
+  int infinite(Id t);
+  bool conflict(Id t, Point3 q);
+  bool conflict_exact(Id t, Point3 q, Verdict verdict);
+  Id locate(Point3 q);
+  Id locate_exactly(Id t, Point3 q);
+  int way_out(Id t, Point3 q, int entry);
+  bool collect(Id start, Point3 q);
+  void unmark();
+  void number_vertices(Point3 q);
+  void fill_star(Id point, Point3 q);
+  void link_by_table();
+  void link_by_sorting();
+
+  Store& store_;
+  Id first_ = 0, last_ = 0;
+  Id here_ = -1;
+  bool out_of_room_ = false;
+  std::uint32_t random_ = 12345;
+  std::size_t chunk_ = 0, chunk_end_ = 0;
+  std::vector<Id> free_, cavity_;
+  std::vector<Border> border_;
+  std::vector<Arm> arm_;
+  Buffer<Id> local_;
+  std::vector<Id> table_;
+  std::vector<std::pair<std::uint64_t, Id>> directed_;
+};
+
+}  // namespace alphamesh
