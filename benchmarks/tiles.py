@@ -84,7 +84,7 @@ def _measure(folder: Path, count: int, tile_points: int, processes: int) -> None
     size = sum(file.stat().st_size for file in result.folder.rglob("*") if file.is_file())
     speed = count / taken
     print(f"points                         {count:,} in {len(result.tiling):,} tiles")
-    print(f"triangles                      {result.summary.triangles:,}")
+    print(f"cells                          {result.summary.counts[-1]:,}")
     print(f"time                           {taken:.1f} s, {speed:,.0f} points a second")
     print(f"a tenth of them in memory      {in_memory:,.0f} points a second")
     print(f"ratio                          {speed / in_memory:.2f}")

@@ -46,15 +46,16 @@ def assert_whole(points, radius, pieces):
         np.testing.assert_array_equal(got[0], want[0])
         np.testing.assert_array_equal(got[1], want[1])
     summary, labels, areas = tiles.merge([tiles.part_of(piece) for piece in pieces], radius)
-    for name, number in shape.counts.items():
-        if name != "isolated_vertices":
-            assert getattr(summary, name) == number, name
+    counts = shape.counts
+    assert summary.counts == tuple(counts[name] for name in ("vertices", "edges", "triangles"))
+    for kind in ("singular", "regular", "interior"):
+        assert getattr(summary, f"{kind}_facets") == counts[f"{kind}_edges"]
     assert summary.points == len(points)
     assert summary.betti == tuple(cx.persistence().betti_numbers(radius)[:2])
     assert summary.euler_characteristic == shape.euler_characteristic
     assert summary.regions == len(shape.regions) == len(areas)
-    assert summary.area == pytest.approx(shape.area, rel=1e-12)
-    assert summary.perimeter == pytest.approx(shape.perimeter, rel=1e-12)
+    assert summary.size == pytest.approx(shape.area, rel=1e-12)
+    assert summary.boundary_size == pytest.approx(shape.perimeter, rel=1e-12)
     np.testing.assert_allclose(areas, shape.regions.areas, rtol=1e-12)
     made = tiles.finish([piece.boundary for piece in pieces], labels)
     assert normal(made) == normal(shapely.get_parts(shape.polygons()))

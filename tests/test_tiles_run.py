@@ -17,7 +17,7 @@ from click.testing import CliRunner
 import alphamesh as am
 from alphamesh import tiles
 from alphamesh.cli.app import app
-from alphamesh.errors import FileReadError, NonFiniteError, ParameterError
+from alphamesh.errors import DimensionError, FileReadError, NonFiniteError, ParameterError
 
 pa = pytest.importorskip("pyarrow")
 pq = pytest.importorskip("pyarrow.parquet")
@@ -77,7 +77,8 @@ def write_las(path, points):
     header = laspy.LasHeader(point_format=0, version="1.2")
     header.scales = [2.0**-20] * 3
     las = laspy.LasData(header)
-    las.x, las.y, las.z = points[:, 0], points[:, 1], np.zeros(len(points))
+    las.x, las.y = points.T[:2]
+    las.z = points[:, 2] if points.shape[1] == 3 else np.zeros(len(points))
     las.write(str(path))
 
 
@@ -233,7 +234,7 @@ def test_bad_radius(tmp_path, data, radius):
 def test_empty_data(tmp_path):
     np.save(tmp_path / "empty.npy", np.empty((0, 2)))
     result = tiles.run(tiles.dataset(tmp_path / "empty.npy"), 1.0, tmp_path / "out")
-    assert result.summary.points == result.summary.vertices == 0
+    assert result.summary.points == result.summary.counts[0] == 0
     assert result.summary.betti == (0, 0)
     assert len(result.polygons()) == 0
 
@@ -248,6 +249,32 @@ def test_radius_from_sampled_tiles(tmp_path):
     betti = am.AlphaComplex(points).persistence().betti_numbers(choice.radius)
     assert tuple(betti[:2]) == (1, 1)
     assert f"{choice.points:,} points" in choice.reason
+
+
+def test_a_run_in_space(tmp_path):
+    points = np.random.default_rng(3).random((3000, 3)) * 14
+    write_las(tmp_path / "cloud.laz", points)
+    data = tiles.dataset(tmp_path / "cloud.laz", dimension=3, chunk_points=700)
+    points = np.concatenate([chunk.read() for chunk in data.chunks])
+    result = tiles.run(data, RADIUS, tmp_path / "out", tile_points=700)
+    cx = am.AlphaComplex(points)
+    for k in range(4):
+        there = cx.radii[k] <= RADIUS
+        order = np.lexsort(cx.simplices[k][there].T[::-1])
+        simplices, radii = result.simplices(k)
+        np.testing.assert_array_equal(simplices, cx.simplices[k][there][order])
+        np.testing.assert_array_equal(radii, cx.radii[k][there][order])
+    shape = cx.at(RADIUS)
+    corners, facets, rows = result.boundary()
+    np.testing.assert_array_equal(points[rows], corners)
+    found = {tuple(np.roll(row, -row.argmin())) for row in rows[facets]}
+    assert found == {tuple(np.roll(row, -row.argmin())) for row in shape.boundary_triangles}
+    assert result.summary.size == pytest.approx(shape.volume)
+    with pytest.raises(DimensionError, match=r"boundary\(\)"):
+        result.polygons()
+    again = call("merge", tmp_path / "out")
+    assert "tunnels" in again.output
+    assert "Surface area" in again.output
 
 
 # ---------------------------------------------------------------------- workers
@@ -327,7 +354,7 @@ def test_command_chooses_the_radius(tmp_path, points):
     made = call("run", tmp_path / "cloud.npy", "-r", "auto", "-o", tmp_path / "out", "--json")
     assert made.exit_code == 0, made.output
     facts = json.loads(made.output)
-    assert "rule of topology" in facts["reason"]
+    assert "the rule topology" in facts["reason"]
     assert facts["betti"][0] == 1
 
 

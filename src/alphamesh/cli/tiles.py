@@ -48,7 +48,8 @@ def command() -> None:
     "-r", "--radius", required=True,
     help="Radius in the units of the points, or auto: chosen by topology in sampled tiles.",
 )  # fmt: skip
-@click.option("--columns", metavar="X,Y", help="The columns that hold the coordinates.")
+@click.option("--columns", metavar="X,Y[,Z]", help="The columns that hold the coordinates.")
+@click.option("--dimension", type=click.IntRange(2, 3), help="Read so many coordinates.")
 @click.option(
     "--tile-points", type=click.IntRange(1), default=500_000, show_default=True, metavar="N",
     help="About how many points a tile shall have.",
@@ -66,6 +67,7 @@ def _run(  # noqa: PLR0913, PLR0917 (one option each)
     folder: Path,
     radius: str,
     columns: str | None,
+    dimension: int | None,
     tile_points: int,
     workers: int | None,
     cluster: str | None,
@@ -82,7 +84,7 @@ def _run(  # noqa: PLR0913, PLR0917 (one option each)
     if workers is not None and cluster is not None:
         raise click.UsageError("give either --workers or --cluster, not both")
     with Steps(quiet=quiet) as steps:
-        found = dataset(data, columns=columns)
+        found = dataset(data, columns=columns, dimension=dimension)
         reason = "Given on the command line."
         if radius == AUTO:
             with steps.step("Choosing the radius"):
@@ -155,7 +157,7 @@ def _write_polygons(result: TiledComplex, path: Path) -> None:
     """Write a GeoJSON feature for each region, whole or not at all."""
     import shapely
 
-    areas = result.region_areas.tolist()
+    areas = result.region_sizes.tolist()
     features = [
         {"type": "Feature", "properties": {"region": k, "area": area}, "geometry": shape}
         for k, (area, shape) in enumerate(
@@ -167,22 +169,28 @@ def _write_polygons(result: TiledComplex, path: Path) -> None:
 
 
 def _tell(result: TiledComplex, as_json: bool, more: dict[str, Any]) -> None:
+    from alphamesh.tiles.store import TABLES
+
     facts: Summary = result.summary
     if as_json:
         numbers = asdict(facts) | {"tiles": len(result.tiling), "folder": str(result.folder)}
         print_json(numbers | more)
         return
+    in_space = result.tiling.dimension == 3
+    classes = ("component", "tunnel", "void") if in_space else ("component", "hole")
+    sizes = ("Volume", "Surface area") if in_space else ("Area", "Perimeter")
     lines = {
         "Folder": f"{result.folder}  ({counted(len(result.tiling), 'tile')})",
         "Points": f"{facts.points:,}",
         "Radius": number(facts.radius),
         "": more.get("reason", ""),
-        "Complex": f"{facts.vertices:,} vertices, {facts.edges:,} edges, "
-        f"{facts.triangles:,} triangles",
-        "Shape": f"{counted(facts.betti[0], 'component')}, {counted(facts.betti[1], 'hole')}, "
-        f"{counted(facts.regions, 'region')}",
-        "Area": number(facts.area),
-        "Perimeter": number(facts.perimeter),
+        "Complex": ", ".join(
+            f"{count:,} {name}" for count, name in zip(facts.counts, TABLES, strict=False)
+        ),
+        "Shape": ", ".join(map(counted, facts.betti, classes))
+        + f", {counted(facts.regions, 'region')}",
+        sizes[0]: number(facts.size),
+        sizes[1]: number(facts.boundary_size),
     }
     if more.get("files"):
         lines["Written"] = "\n".join(

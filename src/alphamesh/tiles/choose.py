@@ -16,7 +16,8 @@ from alphamesh.tiles.tiling import plan
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
-    from alphamesh.filtration import Filtration
+    from alphamesh.filtration import AnyFiltration
+    from alphamesh.radius import RadiusChoice
     from alphamesh.tiles.dataset import Dataset
 
 __all__ = ["SampledRadius", "choose_radius"]
@@ -35,7 +36,7 @@ class SampledRadius:
     low, high : float
         Half of `radii` lie between: their quartiles.
     radii : (k,) float64
-        What follows from the choice of the rule of topology in each tile.
+        What follows from the choice in each tile.
     clear : int
         In how many of them the answer was clear.
     points : int
@@ -55,10 +56,10 @@ class SampledRadius:
 def choose_radius(
     data: Dataset, *, samples: int = 9, tile_points: int = 10_000, seed: int = 0
 ) -> SampledRadius:
-    """Choose a radius by topology in some tiles of a cloud on disk.
+    """Choose a radius by the default rule in some tiles of a cloud on disk.
 
     Space is divided into tiles of about `tile_points` points; some of them, drawn at
-    random, are read as they are, and the rule of topology chooses a radius for each. It is
+    random, are read as they are, and the rule chooses a radius for each. It is
     made larger by what the gaps between more points are wider by chance. Two passes over
     the data.
 
@@ -110,9 +111,10 @@ def _agreed(clouds: list[FloatArray], count: int) -> SampledRadius:
     radii = np.array([radius for radius, _ in chosen])
     low, radius, high = np.quantile(radii, (0.25, 0.5, 0.75)).tolist()
     points = sum(map(len, clouds))
-    clear = sum(was_clear for _, was_clear in chosen)
+    clear = sum(choice.clear for _, choice in chosen)
+    rule = chosen[0][1].rule
     reason = (
-        f"In {len(radii)} tiles with {points:,} points together, the rule of topology chose "
+        f"In {len(radii)} tiles with {points:,} points together, the rule {rule} chose "
         f"radii that are good for the whole cloud from {radii.min():.4g} to "
         f"{radii.max():.4g}, half of them from {low:.4g} to {high:.4g}; the answer was clear "
         f"in {clear}. This is the one in the middle."
@@ -120,16 +122,17 @@ def _agreed(clouds: list[FloatArray], count: int) -> SampledRadius:
     return SampledRadius(radius, low, high, read_only(radii), clear, points, reason)
 
 
-def _for_tile(found: Filtration, count: int) -> tuple[float, bool]:
-    """Return a radius for the whole cloud from one of its tiles, and whether it is clear.
+def _for_tile(found: AnyFiltration, count: int) -> tuple[float, RadiusChoice]:
+    """Return a radius for the whole cloud from one of its tiles, and the choice there.
 
-    Of n random points, about n x exp(-x) chance loops are alive when a disc holds x
-    points. For N points to have as few, x must be larger by log(N / n). The squared
-    distances of random points to their nearest neighbours tell how many a disc holds:
-    half of them are below log(2) times the squared radius of the disc that holds one.
+    Of n random points, about n x exp(-x) chance loops are alive when a ball holds x
+    points. For N points to have as few, x must be larger by log(N / n). The distances of
+    random points to their nearest neighbours tell how much a ball holds: half of these
+    balls hold less than log(2) points.
     """
     choice = choose_for_one(found)
     nearest = 2.0 * float(np.median(found.joined_from))
-    more = math.log(count / len(found.points)) * nearest**2 / math.log(2.0)
-    radius = math.sqrt(choice.radius**2 + (more if math.isfinite(more) else 0.0))
-    return radius, choice.clear
+    d = found.points.shape[1]
+    more = math.log(count / len(found.points)) * nearest**d / math.log(2.0)
+    radius = (choice.radius**d + (more if math.isfinite(more) else 0.0)) ** (1 / d)
+    return radius, choice

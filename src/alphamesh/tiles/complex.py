@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import read_only
-from alphamesh.errors import FileReadError, MissingLibraryError, ParameterError
+from alphamesh.errors import DimensionError, FileReadError, MissingLibraryError, ParameterError
 from alphamesh.tiles.merge import Summary, finish, merge
 from alphamesh.tiles.store import TABLES, Store
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import CountArray, FloatArray
+    from alphamesh._arrays import CountArray, FloatArray, IntArray
 
 __all__ = ["TiledComplex"]
 
@@ -23,9 +23,9 @@ __all__ = ["TiledComplex"]
 class TiledComplex:
     """The alpha complex of a whole cloud at one radius, in the files of a folder.
 
-    The tables ``vertices``, ``edges`` and ``triangles`` in the folder are Parquet
-    datasets, one file a tile, that pandas, Dask, DuckDB and others read as they are. Rows
-    of points are those of the whole cloud.
+    The tables ``vertices``, ``edges``, ``triangles`` (and ``tetrahedra``) in the folder are
+    Parquet datasets, one file a tile, that pandas, Dask, DuckDB and others read as they
+    are. Rows of points are those of the whole cloud.
 
     Parameters
     ----------
@@ -60,14 +60,16 @@ class TiledComplex:
 
         Parameters
         ----------
-        name : {"vertices", "edges", "triangles"}
+        name : {"vertices", "edges", "triangles", "tetrahedra"}
+            The last in space only.
 
         Yields
         ------
         pyarrow.Table
         """
-        if name not in TABLES:
-            raise ParameterError(f"name must be one of {', '.join(TABLES)}; got {name!r}")
+        known = TABLES[: self.tiling.dimension + 1]
+        if name not in known:
+            raise ParameterError(f"name must be one of {', '.join(known)}; got {name!r}")
         try:
             import pyarrow.parquet as pq
         except ImportError as error:
@@ -80,7 +82,8 @@ class TiledComplex:
 
         Parameters
         ----------
-        dimension : {0, 1, 2}
+        dimension : int
+            From 0 for vertices to 2 for triangles in the plane, 3 for tetrahedra in space.
 
         Returns
         -------
@@ -88,8 +91,10 @@ class TiledComplex:
             In the order of their rows.
         radii : (m,) float64
         """
-        if dimension not in (0, 1, 2):
-            raise ParameterError(f"dimension must be 0, 1 or 2; got {dimension!r}")
+        if dimension not in range(self.tiling.dimension + 1):
+            raise ParameterError(
+                f"dimension must be from 0 to {self.tiling.dimension}; got {dimension!r}"
+            )
         if dimension == 0:
             rows = np.concatenate([_distinct(table) for table in self.tables("vertices")])
             return read_only(np.sort(rows)[:, np.newaxis]), read_only(np.zeros(len(rows)))
@@ -105,14 +110,37 @@ class TiledComplex:
     @cached_property
     def _merged(self) -> tuple[Any, Any]:
         parts = [self._store.part(tile) for tile in range(len(self.tiling))]
-        _, labels, areas = merge([part for part, _ in parts], self.radius)
-        return (labels, [boundary for _, boundary in parts]), areas
+        _, labels, sizes = merge([part for part, _ in parts], self.radius)
+        return (labels, [boundary for _, boundary in parts]), sizes
 
     @property
-    def region_areas(self) -> FloatArray:
-        """Area of each region, the largest first, ``(r,)`` float64."""
-        areas: FloatArray = self._merged[1]
-        return areas
+    def region_sizes(self) -> FloatArray:
+        """Area or volume of each region, the largest first, ``(r,)`` float64."""
+        sizes: FloatArray = self._merged[1]
+        return sizes
+
+    def boundary(self) -> tuple[FloatArray, IntArray, CountArray]:
+        """Return the boundary of the cells of the whole, turned outwards.
+
+        Only the boundary has to fit in memory.
+
+        Returns
+        -------
+        points : (n, d) float64
+            The vertices of the boundary.
+        facets : (b, d) int32
+            Edges with the shape on their left, or triangles that run counter-clockwise as
+            seen from outside, as rows of `points`.
+        rows : (n,) int64
+            The row in the whole cloud of each vertex.
+        """
+        _, boundaries = self._merged[0]
+        facets = np.concatenate([boundary.facets for boundary in boundaries])
+        places = np.concatenate([b.points[:, :-1] for b in boundaries])
+        rows, first, corners = np.unique(facets.ravel(), return_index=True, return_inverse=True)
+        points = places.reshape(-1, self.tiling.dimension).take(first, axis=0)
+        numbered = corners.reshape(facets.shape).astype(np.int32)
+        return read_only(points), read_only(numbered), read_only(rows)
 
     def polygons(self) -> Any:
         """Return the regions of the whole as valid polygons, the largest first.
@@ -127,7 +155,13 @@ class TiledComplex:
         ------
         MissingLibraryError
             If shapely is not installed.
+        DimensionError
+            In space, which has no polygons: see :meth:`boundary`.
         """
+        if self.tiling.dimension == 3:
+            raise DimensionError(
+                "polygons are of the plane; boundary() gives the surface of a complex in space"
+            )
         labels, boundaries = self._merged[0]
         return finish(boundaries, labels)
 
@@ -135,7 +169,7 @@ class TiledComplex:
         facts = self.summary
         return (
             f"<TiledComplex at radius {facts.radius:.6g}: {len(self.tiling):,} tiles, "
-            f"{facts.points:,} points, {facts.triangles:,} triangles>"
+            f"{facts.points:,} points, {facts.counts[-1]:,} {TABLES[self.tiling.dimension]}>"
         )
 
 

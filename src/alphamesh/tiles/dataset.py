@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh.errors import FileReadError, MissingLibraryError, NonFiniteError, rows_text
-from alphamesh.io._columns import Columns, choose_columns, wanted_columns
+from alphamesh.io._columns import Columns, Wanted, choose_columns, wanted_columns
 from alphamesh.io._sources import open_source
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ DATASET_FORMATS: tuple[str, ...] = ("npy", "parquet", "las", "laz")
 """Extensions of files that :func:`dataset` reads; a folder holds files of one of them."""
 
 _CHUNK = 1_000_000
+_AXES = ("x", "y", "z")
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +54,7 @@ class Chunk:
     columns: tuple[int, ...]
 
     def read(self) -> FloatArray:
-        """Return the points of the chunk, ``(count, 2)`` float64.
+        """Return the points of the chunk, ``(count, d)`` float64.
 
         Raises
         ------
@@ -95,22 +96,24 @@ class Dataset:
         In the order of the rows: files by name, rows as in the files.
     count : int
         Number of points.
+    dimension : {2, 3}
+        How many coordinates a point has.
     digest : str
         Changes when a file is added, removed or changed.
     """
 
     chunks: tuple[Chunk, ...]
     count: int
+    dimension: int
     digest: str
-
-    @property
-    def dimension(self) -> int:
-        """How many coordinates a point has."""
-        return 2
 
 
 def dataset(
-    path: str | os.PathLike[str], *, columns: Columns = None, chunk_points: int = _CHUNK
+    path: str | os.PathLike[str],
+    *,
+    columns: Columns = None,
+    dimension: int | None = None,
+    chunk_points: int = _CHUNK,
 ) -> Dataset:
     """Describe a cloud on disk: a file, or a folder of files with equal columns.
 
@@ -121,6 +124,8 @@ def dataset(
         files and those that begin with "_" are left out.
     columns : sequence of str or int, or str, optional
         Of Parquet files, see :func:`alphamesh.read_points`; of NPY files, numbers.
+    dimension : {2, 3}, optional
+        How many coordinates to read: by default as many as `columns`, else 2.
     chunk_points : int
         How many rows to read at a time; of Parquet, whole row groups.
 
@@ -137,18 +142,19 @@ def dataset(
     """
     files = _files(Path(path))
     described: list[Chunk] = []
-    digest = hashlib.sha256(repr(columns).encode())
+    wanted = wanted_columns(columns, dimension)
+    digest = hashlib.sha256(repr(wanted).encode())
     row = 0
     for file in files:
         state = file.stat()
         digest.update(f"{file.name} {state.st_size} {state.st_mtime_ns}".encode())
-        for start, count, part, chosen in _PARTS[_kind(file)](file, columns, chunk_points):
+        for start, count, part, chosen in _PARTS[_kind(file)](file, wanted, chunk_points):
             if count:
                 described.append(
                     Chunk(len(described), str(file), row, start, count, part, chosen)
                 )
             row += count
-    return Dataset(tuple(described), row, digest.hexdigest())
+    return Dataset(tuple(described), row, wanted.dimension, digest.hexdigest())
 
 
 def _files(path: Path) -> list[Path]:
@@ -203,9 +209,8 @@ def _open_npy(path: str | Path) -> Any:
     return array
 
 
-def _npy_parts(path: Path, columns: Columns, size: int) -> Parts:
+def _npy_parts(path: Path, wanted: Wanted, size: int) -> Parts:
     array = _open_npy(path)
-    wanted = wanted_columns(columns, 2)
     chosen = choose_columns(open_source(path), wanted, None, array.shape[1])
     return _slices(len(array), size, chosen)
 
@@ -228,10 +233,10 @@ def _parquet(path: str | Path) -> Any:
         raise FileReadError(f"{path} is not a complete Parquet file ({error})") from error
 
 
-def _parquet_parts(path: Path, columns: Columns, size: int) -> Parts:
+def _parquet_parts(path: Path, wanted: Wanted, size: int) -> Parts:
     table = _parquet(path)
     names = table.schema_arrow.names
-    chosen = choose_columns(open_source(path), wanted_columns(columns, 2), names, len(names))
+    chosen = choose_columns(open_source(path), wanted, names, len(names))
     groups = (table.metadata.row_group(k).num_rows for k in range(table.num_row_groups))
     return ((0, count, part, chosen) for part, count in enumerate(groups))
 
@@ -255,18 +260,17 @@ def _las(path: str | Path) -> Any:
         raise FileReadError(f"{path} is not a complete LAS file ({error})") from error
 
 
-def _las_parts(path: Path, columns: Columns, size: int) -> Parts:
-    if columns is not None:
-        raise FileReadError(f"{path}: LAS files have x and y; leave columns= out")
+def _las_parts(path: Path, wanted: Wanted, size: int) -> Parts:
+    chosen = choose_columns(open_source(path), wanted, _AXES, len(_AXES))
     with _las(path) as file:
-        return _slices(int(file.header.point_count), size, (0, 1))
+        return _slices(int(file.header.point_count), size, chosen)
 
 
 def _read_las(chunk: Chunk) -> FloatArray:
     with _las(chunk.path) as file:
         file.seek(chunk.start)
         part = file.read_points(chunk.count)
-        return np.stack((np.asarray(part.x), np.asarray(part.y)), axis=1)
+        return np.stack([np.asarray(part[_AXES[k]]) for k in chunk.columns], axis=1)
 
 
 _PARTS = {

@@ -32,22 +32,23 @@ class Part(Record):
     ----------
     points : int
         Points in the tile, duplicates and all.
-    counts : (3,) int64
-        Vertices, edges and triangles that it owns.
-    edge_kinds : (4,) int64
-        How many edges of each :class:`~alphamesh.classify.SimplexKind`.
-    perimeter : float
-    region_areas : (r,) float64
-    components, regions : Border
+    counts : (d + 1,) int64
+        How many simplices of each dimension it owns.
+    facet_kinds : (4,) int64
+        How many facets of each :class:`~alphamesh.classify.SimplexKind`.
+    boundary_size : float
+    region_sizes : (r,) float64
+    components, regions, fronts : Border
     """
 
     points: int
     counts: CountArray
-    edge_kinds: CountArray
-    perimeter: float
-    region_areas: FloatArray
+    facet_kinds: CountArray
+    boundary_size: float
+    region_sizes: FloatArray
     components: Border
     regions: Border
+    fronts: Border
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,30 +60,30 @@ class Summary:
     radius : float
     points : int
         Rows of the cloud, duplicates and all.
-    vertices, edges, triangles : int
-    singular_edges, regular_edges, interior_edges : int
+    counts : tuple of int
+        Vertices, edges, triangles (and tetrahedra).
+    singular_facets, regular_facets, interior_facets : int
+        Facets are edges in the plane, triangles in space.
     euler_characteristic : int
     betti : tuple of int
-        Components and holes.
+        Components and holes; in space components, tunnels and voids.
     regions : int
-        Sets of triangles connected by edges.
-    area, perimeter : float
-        Of the triangles, in (squared) units of the points.
+        Sets of cells connected by facets.
+    size, boundary_size : float
+        Area and perimeter, or volume and surface area, of the cells.
     """
 
     radius: float
     points: int
-    vertices: int
-    edges: int
-    triangles: int
-    singular_edges: int
-    regular_edges: int
-    interior_edges: int
+    counts: tuple[int, ...]
+    singular_facets: int
+    regular_facets: int
+    interior_facets: int
     euler_characteristic: int
-    betti: tuple[int, int]
+    betti: tuple[int, ...]
     regions: int
-    area: float
-    perimeter: float
+    size: float
+    boundary_size: float
 
 
 def part_of(piece: Piece) -> Part:
@@ -90,11 +91,12 @@ def part_of(piece: Piece) -> Part:
     return Part(
         len(piece.rows),
         read_only(np.array([len(rows) for rows in piece.simplices])),
-        read_only(np.bincount(piece.edge_kinds, minlength=len(SimplexKind))),
-        piece.perimeter,
-        piece.region_areas,
+        read_only(np.bincount(piece.facet_kinds, minlength=len(SimplexKind))),
+        piece.boundary_size,
+        piece.region_sizes,
         piece.components,
         piece.regions,
+        piece.fronts,
     )
 
 
@@ -112,40 +114,43 @@ def merge(parts: Sequence[Part], radius: float) -> tuple[Summary, list[IntArray]
     summary : Summary
     region_labels : list of (r_i,) int32
         For each tile, which region of the whole each of its regions is; the largest is 0.
-    region_areas : (r,) float64
+    region_sizes : (r,) float64
         Descending.
-
-    Notes
-    -----
-    In the plane there are no voids, so that the Euler number is components minus holes.
     """
-    vertices, edges, triangles = np.sum([part.counts for part in parts], axis=0).tolist()
-    kinds = np.sum([part.edge_kinds for part in parts], axis=0).tolist()
-    components, _ = join([part.components for part in parts])
+    counts = np.sum([part.counts for part in parts], axis=0).tolist()
+    kinds = np.sum([part.facet_kinds for part in parts], axis=0).tolist()
     regions, labels = join([part.regions for part in parts])
-    areas = np.zeros(regions)
+    sizes = np.zeros(regions)
     for part, label in zip(parts, labels, strict=True):
-        np.add.at(areas, label, part.region_areas)
-    order = np.argsort(-areas, kind="stable")
+        np.add.at(sizes, label, part.region_sizes)
+    order = np.argsort(-sizes, kind="stable")
     ranks = np.empty(regions, dtype=np.int32)
     ranks[order] = np.arange(regions, dtype=np.int32)
-    euler = vertices - edges + triangles
+    euler = sum(count if k % 2 == 0 else -count for k, count in enumerate(counts))
     summary = Summary(
         radius=radius,
         points=sum(part.points for part in parts),
-        vertices=vertices,
-        edges=edges,
-        triangles=triangles,
-        singular_edges=kinds[SimplexKind.SINGULAR],
-        regular_edges=kinds[SimplexKind.REGULAR],
-        interior_edges=kinds[SimplexKind.INTERIOR],
+        counts=tuple(counts),
+        singular_facets=kinds[SimplexKind.SINGULAR],
+        regular_facets=kinds[SimplexKind.REGULAR],
+        interior_facets=kinds[SimplexKind.INTERIOR],
         euler_characteristic=euler,
-        betti=(components, components - euler),
+        betti=_betti(parts, euler),
         regions=regions,
-        area=math.fsum(area for part in parts for area in part.region_areas.tolist()),
-        perimeter=math.fsum(part.perimeter for part in parts),
+        size=math.fsum(size for part in parts for size in part.region_sizes.tolist()),
+        boundary_size=math.fsum(part.boundary_size for part in parts),
     )
-    return summary, [ranks.take(label) for label in labels], read_only(areas.take(order))
+    return summary, [ranks.take(label) for label in labels], read_only(sizes.take(order))
+
+
+def _betti(parts: Sequence[Part], euler: int) -> tuple[int, ...]:
+    """Return the Betti numbers of the whole: the Euler number tells those of loops."""
+    components, _ = join([part.components for part in parts])
+    if len(parts[0].counts) == 3:
+        return components, components - euler
+    sides, _ = join([part.fronts for part in parts])
+    voids = sides - components
+    return components, components + voids - euler, voids
 
 
 def outline(boundaries: Sequence[Boundary], region_labels: Sequence[IntArray]) -> Rings:
@@ -154,7 +159,7 @@ def outline(boundaries: Sequence[Boundary], region_labels: Sequence[IntArray]) -
     Parameters
     ----------
     boundaries : sequence of Boundary
-        One for each tile.
+        One for each tile, in the plane.
     region_labels : sequence of (r_i,) int32
         From :func:`merge`.
 
@@ -164,7 +169,7 @@ def outline(boundaries: Sequence[Boundary], region_labels: Sequence[IntArray]) -
         Over the corners of boundary edges and of the triangles at them; `edges` counts
         boundary edges.
     """
-    rows = np.concatenate([np.column_stack((b.edges, b.apexes)) for b in boundaries])
+    rows = np.concatenate([np.column_stack((b.facets, b.apexes)) for b in boundaries])
     places = np.concatenate([b.points for b in boundaries]).reshape(-1, 2)
     regions = np.concatenate(
         [labels.take(b.regions) for b, labels in zip(boundaries, region_labels, strict=True)]

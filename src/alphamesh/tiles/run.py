@@ -126,6 +126,7 @@ def _begin(
         "format": 1,
         "data": data.digest,
         "points": data.count,
+        "dimension": data.dimension,
         "chunks": len(data.chunks),
         "radius": radius,
         "tile_points": tile_points,
@@ -156,7 +157,9 @@ def _plan(
     share = min(1.0, _SAMPLE / max(data.count, 1))
     done = workers.each(partial(_sample, share=share), data.chunks)
     samples = dict(_counted(done, len(data.chunks), told, 0.0, _SURVEYED))
-    sample = np.concatenate([np.empty((0, 2)), *(samples[k] for k in sorted(samples))])
+    sample = np.concatenate(
+        [np.empty((0, data.dimension)), *(samples[k] for k in sorted(samples))]
+    )
     store.write_plan(plan(sample, max(1, math.ceil(data.count / tile_points))))
 
 
@@ -211,6 +214,6 @@ def _solve_tile(tile: int, folder: Path, chunks: int, radius: float) -> int:
     store = Store(folder)
     tiling = store.plan()
     assert tiling is not None
-    rows, points = store.points_of(tile, chunks)
+    rows, points = store.points_of(tile, chunks, tiling.dimension)
     store.write_tile(solve(tiling, tile, rows, points, radius))
     return tile

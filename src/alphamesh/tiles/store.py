@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 __all__ = ["TABLES", "Store"]
 
-TABLES = ("vertices", "edges", "triangles")
-"""The Parquet datasets in the folder, one file a tile in each."""
+TABLES = ("vertices", "edges", "triangles", "tetrahedra")
+"""The Parquet datasets in the folder, one file a tile in each; the last in space only."""
 
 _MANIFEST, _PLAN, _SUMMARY = "manifest.json", "plan.npz", "summary.json"
 
@@ -53,7 +53,8 @@ class Store:
 
     def write_manifest(self, manifest: dict[str, Any]) -> None:
         """Begin: remember what the folder is for."""
-        for name in ("chunks", "tiles", *TABLES):
+        tables = TABLES[: manifest["dimension"] + 1]
+        for name in ("chunks", "tiles", *tables):
             (self.folder / name).mkdir(parents=True, exist_ok=True)
         self._write_json(_MANIFEST, manifest)
 
@@ -62,18 +63,21 @@ class Store:
         arrays = self._arrays(_PLAN)
         if arrays is None:
             return None
-        names = [field.name for field in fields(Tiling)][1:]
-        return Tiling(2, *(read_only(arrays[name]) for name in names))
+        dimension, *tree = (arrays[field.name] for field in fields(Tiling))
+        return Tiling(int(dimension), *tree)
 
     def write_plan(self, tiling: Tiling) -> None:
         """Keep the tiling."""
-        names = [field.name for field in fields(Tiling)][1:]
-        self._write_arrays(_PLAN, {name: getattr(tiling, name) for name in names})
+        arrays = {field.name: getattr(tiling, field.name) for field in fields(Tiling)}
+        self._write_arrays(_PLAN, arrays)
 
     def summary(self) -> Summary | None:
         """Return the facts about the whole; None before it is finished."""
         found = self._json(_SUMMARY)
-        return None if found is None else Summary(**{**found, "betti": tuple(found["betti"])})
+        if found is None:
+            return None
+        lists = {name: tuple(found[name]) for name in ("betti", "counts")}
+        return Summary(**(found | lists))
 
     def write_summary(self, summary: Summary) -> None:
         """Finish: keep the facts about the whole."""
@@ -93,16 +97,21 @@ class Store:
             with atomic_path(self._chunk(chunk, name)) as path, path.open("wb") as file:
                 np.save(file, array, allow_pickle=False)
 
-    def points_of(self, tile: int, chunks: int) -> tuple[CountArray, FloatArray]:
+    def points_of(
+        self, tile: int, chunks: int, dimension: int
+    ) -> tuple[CountArray, FloatArray]:
         """Return rows and points of a tile and its halo, ascending by row."""
-        rows, points = [np.empty(0, dtype=np.int64)], [np.empty((0, 2))]
+        rows, points = [np.empty(0, dtype=np.int64)], [np.empty((0, dimension))]
         for chunk in range(chunks):
             offsets = np.load(self._chunk(chunk, "offsets"), allow_pickle=False)
             part = slice(*offsets[tile : tile + 2].tolist())
-            for name, kept in (("rows", rows), ("points", points)):
-                array = np.load(self._chunk(chunk, name), mmap_mode="r", allow_pickle=False)
-                kept.append(np.array(array[part]))
+            rows.append(self._slice(chunk, "rows", part))
+            points.append(self._slice(chunk, "points", part))
         return np.concatenate(rows), np.concatenate(points)
+
+    def _slice(self, chunk: int, name: str, part: slice) -> Any:
+        array = np.load(self._chunk(chunk, name), mmap_mode="r", allow_pickle=False)
+        return np.array(array[part])
 
     def drop_chunks(self) -> None:
         """Delete the points on their way, once no tile needs them."""
@@ -124,7 +133,8 @@ class Store:
 
     def write_tile(self, piece: Piece) -> None:
         """Keep a finished tile: its simplices, and what the whole needs to know of it."""
-        written = [self._write_table(name, piece) for name in TABLES]
+        tables = TABLES[: len(piece.simplices)]
+        written = [self._write_table(name, piece) for name in tables]
         name = f"tiles/{piece.tile:06}.npz"
         self._write_arrays(name, _flat(piece))
         files = {name: _checksum(self.folder / name) for name in (*written, name)}
@@ -198,18 +208,18 @@ def _checksum(path: Path) -> str:
 def _columns(name: str, piece: Piece) -> dict[str, Any]:
     """Return the columns of one of the tables."""
     if name == "vertices":
-        x, y = piece.points.T
-        return {"row": piece.rows, "x": x, "y": y, "representative": piece.representative}
+        places = dict(zip("xyz", piece.points.T, strict=False))
+        return {"row": piece.rows, **places, "representative": piece.representative}
     k = TABLES.index(name)
     columns = {f"vertex{i}": rows for i, rows in enumerate(piece.simplices[k].T)}
     columns["radius"] = piece.radii[k]
-    if name == "edges":
-        columns["kind"] = piece.edge_kinds
+    if k == len(piece.simplices) - 2:
+        columns["kind"] = piece.facet_kinds
     return columns
 
 
 _BOUNDARY = tuple(field.name for field in fields(Boundary))
-_BORDERS = ("components", "regions")
+_BORDERS = ("components", "regions", "fronts")
 
 
 def _flat(piece: Piece) -> dict[str, Any]:
@@ -234,9 +244,9 @@ def _unflat(arrays: dict[str, Any]) -> tuple[Part, Boundary]:
     part = Part(
         int(arrays["points"]),
         arrays["counts"],
-        arrays["edge_kinds"],
-        float(arrays["perimeter"]),
-        arrays["region_areas"],
+        arrays["facet_kinds"],
+        float(arrays["boundary_size"]),
+        arrays["region_sizes"],
         *borders,
     )
     return part, Boundary(*(arrays[f"boundary_{key}"] for key in _BOUNDARY))
