@@ -125,7 +125,8 @@ class _Corners:
         """Return the corners of tetrahedra at some of their vertices, ``(k, w)``."""
         rows = self.found.simplices[3].take(tetrahedra, axis=0)
         place = (rows[:, np.newaxis, :] == vertices[:, :, np.newaxis]).argmax(axis=2)
-        return 4 * tetrahedra.astype(np.int64)[:, np.newaxis] + place
+        nodes: CountArray = 4 * tetrahedra.astype(np.int64)[:, np.newaxis] + place
+        return nodes
 
     def _along(self) -> list[CountArray]:
         """Link corners of one tetrahedron that a simplex of the complex faces.
