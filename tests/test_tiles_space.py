@@ -48,7 +48,9 @@ def assert_whole(points, radius, count):
         radii = np.concatenate([piece.radii[k] for piece in pieces])
         order, found = np.lexsort(wanted.T[::-1]), np.lexsort(got.T[::-1])
         np.testing.assert_array_equal(got[found], wanted[order])
-        np.testing.assert_array_equal(radii[found], cx.radii[k][there][order])
+        # In memory, a cloud in one plane is measured as in the plane: other last digits.
+        error = 0 if cx.filtration.dimension == 3 else 4e-16
+        np.testing.assert_allclose(radii[found], cx.radii[k][there][order], rtol=error, atol=0)
     summary, _, sizes = tiles.merge([tiles.part_of(piece) for piece in pieces], radius)
     counts = shape.counts
     assert summary.counts == tuple(counts[name] for name in NAMES)

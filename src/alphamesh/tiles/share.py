@@ -122,7 +122,7 @@ class Share:
         place = np.cumsum(known) - 1
         cells = np.flatnonzero(known)
         corners = self.found.simplices[-1].take(cells, axis=0)
-        shared: BoolArray = (~self.inside.take(corners)).any(axis=1)
+        shared = np.any(~self.inside.take(corners), axis=1)
         labels, border = border_of(rows.take(corners), place.take(links), shared)
         everywhere = np.full(len(known), -1, dtype=np.int64)
         everywhere[cells] = labels
