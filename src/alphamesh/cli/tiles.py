@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from alphamesh.cli.command import Command, json_option, quiet_option
+from alphamesh.cli.command import Command, json_option, quiet_option, write_section
 from alphamesh.cli.outputs import Output, Outputs, check_targets, write_bytes
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, number, print_json, print_lines, size_text
@@ -24,11 +24,20 @@ _EXAMPLES = (
     "alphamesh tiles run lidar/ --radius 2.5 -o tiles",
     "alphamesh tiles run points.parquet --radius auto --workers 4 -o tiles",
     "alphamesh tiles run lidar/ --radius 2.5 --cluster tcp://head:8786 -o tiles",
+    "alphamesh tiles merge tiles -o outline.geojson",
 )
 _folder = click.argument("folder", type=click.Path(path_type=Path))
 
 
-@click.group("tiles")
+class _Group(click.Group):
+    """A group whose help ends with examples, as that of a command."""
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """End the help with the examples."""
+        write_section(formatter, "Examples", _EXAMPLES)
+
+
+@click.group("tiles", cls=_Group)
 def command() -> None:
     """Build a complex larger than memory, tile by tile.
 
