@@ -12,8 +12,8 @@ import sys
 import time
 from pathlib import Path
 
-import numpy as np
 import click
+import numpy as np
 import pytest
 
 pytest.importorskip("click")
