@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tokenize
+import warnings
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -101,6 +102,13 @@ def _choose_key(source: Source, keys: list[str], key: str | None) -> str:
 
 def _array(source: Source, file: IO[bytes], size: int) -> NDArray[Any]:
     """Read the array in `size` bytes, after a look whether they hold what they promise."""
+    with warnings.catch_warnings():
+        # Files that were written by Python 2 are as good as others.
+        warnings.filterwarnings("ignore", "Reading .* additional header parsing", UserWarning)
+        return _parsed(source, file, size)
+
+
+def _parsed(source: Source, file: IO[bytes], size: int) -> NDArray[Any]:
     version = np.lib.format.read_magic(file)
     # Versions 2 and 3 differ in the names of fields alone, which are read later.
     read_header = (
