@@ -1,4 +1,4 @@
-"""The filtration in space against its definition, against gudhi, and on clouds that are flat."""
+"""The filtration in space against its definition and gudhi, also on clouds that are flat."""
 
 from __future__ import annotations
 
@@ -171,7 +171,9 @@ def test_neighbours_and_hull(random):
         corners = np.empty((len(random.points), 4, 3))
         corners[:, :3], corners[:, 3] = random.points[triangle], random.points
         assert (orient3(corners) <= 0).all()
-    assert repr(delaunay) == f"<Delaunay3D: 400 points, {len(delaunay.tetrahedra):,} tetrahedra>"
+    assert (
+        repr(delaunay) == f"<Delaunay3D: 400 points, {len(delaunay.tetrahedra):,} tetrahedra>"
+    )
 
 
 def test_the_volume_is_that_of_the_hull(random):
@@ -235,7 +237,9 @@ def test_a_plane_in_space_is_the_complex_of_the_plane():
         assert (found.triangle_tetrahedra == -1).all()
         for k in range(3):
             mine = dict(zip(map(tuple, found.simplices[k]), found.radii[k], strict=True))
-            theirs = dict(zip(map(tuple, expected.simplices[k]), expected.radii[k], strict=True))
+            theirs = dict(
+                zip(map(tuple, expected.simplices[k]), expected.radii[k], strict=True)
+            )
             assert mine.keys() == theirs.keys()
             np.testing.assert_allclose(
                 list(mine.values()), [theirs[key] for key in mine], rtol=1e-14
