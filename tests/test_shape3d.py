@@ -159,7 +159,7 @@ def test_a_hollow_ball_and_a_full_one(two):
     # Samples lie inside of what they are drawn from: solids come out small, voids large.
     thick = 4 / 3 * math.pi * (1 - 0.8**3)
     assert 0.7 * thick < two.regions.volumes[0] < thick
-    assert 0.8 * math.pi / 6 < two.regions.volumes[1] < math.pi / 6
+    assert 0.7 * math.pi / 6 < two.regions.volumes[1] < math.pi / 6
     hollow = 4 / 3 * math.pi * 0.8**3
     assert hollow < two.voids.volumes[0] < 1.2 * hollow
     assert two.voids.surface_areas[0] == pytest.approx(4 * math.pi * 0.64, rel=0.25)
