@@ -24,8 +24,8 @@ __all__ = [
     "exact_floats",
     "same_name",
     "stack",
-    "without_flat_z",
     "wanted_columns",
+    "without_flat_z",
 ]
 
 Columns: TypeAlias = "str | Sequence[str | int] | None"
