@@ -262,6 +262,29 @@ def test_clouds_in_a_plane_and_on_a_line(axes):
     assert len(line.isolated_edges) == 3 and line.euler_characteristic == 1
 
 
+@given(clouds3())
+def test_measure_curves_are_those_of_shapes(points):
+    cx = am.AlphaComplex(points)
+    curves = cx.measure_curves()
+    radii = np.unique([0.0, 1.0, np.inf, *cx.critical_radii(), *cx.critical_radii() * 0.9])
+    shapes = [cx.at(radius) for radius in radii]
+    largest = cx.filtration.tetrahedron_volumes.max(initial=0.0)
+    for name, slack in (("volume", 1e-13 * largest), ("surface_area", 0.0)):
+        expected = np.array([getattr(shape, name) for shape in shapes])
+        widest = cx.filtration.triangle_areas.max(initial=0.0)
+        np.testing.assert_allclose(
+            getattr(curves, name)(radii), expected, rtol=1e-12, atol=slack + 1e-25 * widest
+        )
+    for name in ("edge", "triangle", "tetrahedron"):
+        plural = {"tetrahedron": "tetrahedra"}.get(name, f"{name}s")
+        expected = [shape.counts[plural] for shape in shapes]
+        assert getattr(curves, f"{name}_count")(radii).tolist() == expected
+    euler = [shape.euler_characteristic for shape in shapes]
+    assert curves.euler_characteristic(radii).tolist() == euler
+    with pytest.raises(ParameterError):
+        curves.volume(-1.0)
+
+
 # ------------------------------------------------------------- rules
 
 
