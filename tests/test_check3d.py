@@ -11,7 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import alphamesh as am
-from alphamesh.check import RADIUS_ERROR, check_delaunay, check_filtration, check_shape
+from alphamesh.check import (
+    RADIUS_ERROR_IN_SPACE,
+    check_delaunay,
+    check_filtration,
+    check_shape,
+)
 from alphamesh.errors import InvalidResultError
 from strategies3 import FAMILIES
 
@@ -165,7 +170,7 @@ def test_names_clouds_of_another_dimension():
     with pytest.raises(InvalidResultError, match=r"circumcircle|folded|convex"):
         check_filtration(replace(sheet, points=edited(SHEET, (5, 0), 0.5)))
     for k in (1, 2):
-        broken = changed(sheet, k, "radii", sheet.radii[k] * (1 + 10 * RADIUS_ERROR))
+        broken = changed(sheet, k, "radii", sheet.radii[k] * (1 + 10 * RADIUS_ERROR_IN_SPACE))
         with pytest.raises(InvalidResultError, match="radii"):
             check_filtration(broken)
 

@@ -14,5 +14,12 @@ References
 from alphamesh.check._delaunay import check_delaunay
 from alphamesh.check._filtration import RADIUS_ERROR, check_filtration
 from alphamesh.check._shape import check_shape
+from alphamesh.check._space_filtration import RADIUS_ERROR_IN_SPACE
 
-__all__ = ["RADIUS_ERROR", "check_delaunay", "check_filtration", "check_shape"]
+__all__ = [
+    "RADIUS_ERROR",
+    "RADIUS_ERROR_IN_SPACE",
+    "check_delaunay",
+    "check_filtration",
+    "check_shape",
+]

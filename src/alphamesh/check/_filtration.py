@@ -32,8 +32,8 @@ def check_filtration(result: AnyFiltration) -> None:
 
     Combinatorial claims (the triangulation, which edges are Gabriel, which values are
     equal) are checked exactly; a radius itself may be off by a factor of
-    1 ± :data:`RADIUS_ERROR`, and for thin simplices by the rounding of the check: 2e-13 in
-    the plane, 1e-11 in space.
+    1 ± :data:`RADIUS_ERROR`, in space 1 ± :data:`RADIUS_ERROR_IN_SPACE`, and for thin
+    simplices by the rounding of the check: 2e-13 in the plane, 1e-11 in space.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def check_filtration(result: AnyFiltration) -> None:
         breaks it.
     """
     if isinstance(result, Filtration3D):
-        check_filtration3d(result, RADIUS_ERROR)
+        check_filtration3d(result)
         return
     check_representative(result.points, result.representative)
     if not len(result.simplices) == len(result.radii) == 3:

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from alphamesh.delaunay3d import Delaunay3D
     from alphamesh.filtration3d import Filtration3D
 
+#: Relative error up to which `check_filtration` accepts a radius in space.
+RADIUS_ERROR_IN_SPACE = 2e-13
+
 _NAMES = ("vertex", "edge", "triangle", "tetrahedron")
 _ULP = 2.0**-52
 # Above this doubt about the check's own rounding, a simplex is measured in fractions.
@@ -40,7 +43,7 @@ def check_delaunay3d(result: Delaunay3D) -> None:
     require(same, "neighbors: not the tetrahedra opposite to the vertices")
 
 
-def check_filtration3d(result: Filtration3D, radius_error: float) -> None:
+def check_filtration3d(result: Filtration3D) -> None:
     """Prove a filtration in space; see :func:`alphamesh.check.check_filtration`."""
     if not len(result.simplices) == len(result.radii) == 4:
         raise InvalidResultError("simplices and radii: not one array for each dimension")
@@ -52,7 +55,7 @@ def check_filtration3d(result: Filtration3D, radius_error: float) -> None:
     points, exponent = unit_points(result.points)
     lattice = _lattice(points)
     for k in (3, 2, 1):
-        _check_radii(result, k, points, lattice, exponent, radius_error)
+        _check_radii(result, k, points, lattice, exponent)
 
 
 def _check_cofaces(result: Filtration3D, partner: LongArray) -> None:
@@ -73,13 +76,12 @@ def _check_cofaces(result: Filtration3D, partner: LongArray) -> None:
     require(good, "triangle_edges: not the edges opposite to the corners")
 
 
-def _check_radii(  # noqa: PLR0913, PLR0917 (what is known of the cloud)
+def _check_radii(
     result: Filtration3D,
     k: int,
     points: FloatArray,
     lattice: FloatArray | None,
     exponent: int,
-    radius_error: float,
 ) -> None:
     """Check the radii of one dimension: of the own sphere if it is empty, else the least above.
 
@@ -102,10 +104,10 @@ def _check_radii(  # noqa: PLR0913, PLR0917 (what is known of the cloud)
     slack = float(np.ldexp(1.0, -1074 - exponent))  # what rounding to subnormals costs
     own, doubt = _radii_of_spheres(points, simplices)
     with np.errstate(invalid="ignore"):
-        good = np.abs(claimed - own) - slack <= (radius_error + doubt) * own
+        good = np.abs(claimed - own) - slack <= (RADIUS_ERROR_IN_SPACE + doubt) * own
     for row in np.flatnonzero(gabriel & ~(doubt < _THIN)):
         corners = points[simplices[row]].tolist()
-        good[row] = _is_radius(claimed[row], slack, radius_error, corners)
+        good[row] = _is_radius(claimed[row], slack, corners)
     require(~gabriel | good, f"{name} radii: Gabriel, so that of the smallest sphere")
 
 
@@ -146,9 +148,7 @@ def _radius(sides: FloatArray) -> tuple[FloatArray, FloatArray]:
     return above / below / 2, np.where((below > 1e-140) & (above > 1e-140), error, np.inf)
 
 
-def _is_radius(
-    radius: float, slack: float, radius_error: float, corners: list[list[float]]
-) -> bool:
+def _is_radius(radius: float, slack: float, corners: list[list[float]]) -> bool:
     """Tell exactly whether `radius` is within the allowed error of the smallest sphere's."""
     a, *others = [[Fraction(x) for x in corner] for corner in corners]
     sides = [[x - y for x, y in zip(corner, a, strict=True)] for corner in others]
@@ -159,7 +159,7 @@ def _is_radius(
         Fraction(0),
     )
     low = max(Fraction(radius) - Fraction(slack), Fraction(0))
-    high, error = Fraction(radius) + Fraction(slack), Fraction(radius_error)
+    high, error = Fraction(radius) + Fraction(slack), Fraction(RADIUS_ERROR_IN_SPACE)
     return low**2 <= square * (1 + error) ** 2 and square * (1 - error) ** 2 <= high**2
 
 
