@@ -101,7 +101,7 @@ def test_points_in_space_and_stages_of_one_dimension():
         as_cloud(space[:, :2], 3)
     with pytest.raises(CloudShapeError, match="three coordinates: look at row 1"):
         as_cloud([[1, 2, 3], [4, 5], [6, 7, 8]])
-    for stage in (am.delaunay, am.convex_hull, am.voronoi, am.framed_delaunay):
+    for stage in (am.convex_hull, am.voronoi, am.framed_delaunay):
         with pytest.raises(CloudShapeError, match="in the plane alone"):
             stage(space)
 

@@ -87,6 +87,12 @@ def test_ply_with_faces(read):
     assert read(data.replace(b"\n", b"\r\n", 9), "a.ply") == TWO.tolist()
 
 
+def test_ply_of_a_solid_is_in_space(read):
+    body = b"1 2 9\n3 4 8\n"
+    assert read(ply("ascii", vertices(2), body=body), "a.ply") == [[1, 2, 9], [3, 4, 8]]
+    assert read(ply("ascii", vertices(2), body=body), "a.ply", dimension=2) == TWO.tolist()
+
+
 def test_ply_with_elements_before_the_vertices(read):
     first = "element camera 2\nproperty short a\nproperty int b"
     body = b"1 2\n3 4\n1 2 9\n3 4 9\n"

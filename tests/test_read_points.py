@@ -115,9 +115,21 @@ def test_npy_of_python_2(read):
 
 def test_npy_columns(read):
     wide = np.column_stack([np.zeros(2), TWO[:, 1], TWO[:, 0]])
-    assert read(npy(wide), "a.npy") == wide[:, :2].tolist()
+    assert read(npy(wide), "a.npy", dimension=2) == wide[:, :2].tolist()
     assert read(npy(wide), "a.npy", columns=(2, 1)) == TWO.tolist()
     assert read(npy(wide), "a.npy", dimension=3) == wide.tolist()
+
+
+def test_npy_of_three_columns_is_in_space_unless_it_is_flat(read):
+    solid = np.arange(9.0).reshape(3, 3)
+    assert read(npy(solid), "a.npy") == solid.tolist()
+    flat = np.column_stack([TWO, [7.0, 7.0]])
+    assert read(npy(flat), "a.npy") == TWO.tolist()
+    assert read(npy(flat), "a.npy", dimension=3) == flat.tolist()
+    assert read(npy(flat), "a.npy", columns=(0, 1, 2)) == flat.tolist()
+    fields = np.array([(1.0, 2.0, 3.0), (4.0, 5.0, 6.0)], dtype="f8,f8,f8")
+    fields.dtype.names = ("z", "x", "y")
+    assert read(npy(fields), "a.npy") == [[2, 3, 1], [5, 6, 4]]
 
 
 def test_npy_with_fields(read):

@@ -146,6 +146,28 @@ def test_three_dimensions(read):
     assert read("lat,lon,alt\n2,1,3\n", dimension=3) == [[1, 2, 3]]
 
 
+def test_a_column_z_makes_points_in_space_unless_it_is_flat(read):
+    table = "id,x,y,z\n1,2,3,4\n5,6,7,8\n"
+    assert read(table) == [[2, 3, 4], [6, 7, 8]]
+    assert read(table, dimension=2) == read(table, columns="x,y") == [[2, 3], [6, 7]]
+    assert read(table.replace("8", "4")) == [[2, 3], [6, 7]]
+    assert read("X [m],Y [m],Z [m]\n1,2,3\n4,5,6\n") == [[1, 2, 3], [4, 5, 6]]
+    # Heights are in other units than degrees; a third column without a name may be anything.
+    assert read("lon,lat,alt\n1,2,3\n4,5,6\n") == [[1, 2], [4, 5]]
+    assert read("east,north,z\n1,2,3\n4,5,6\n") == [[1, 2], [4, 5]]
+    assert read("1,2,3\n4,5,6\n") == [[1, 2], [4, 5]]
+    assert read("x,y,z,z\n1,2,3,9\n4,5,6,9\n") == [[1, 2], [4, 5]]
+
+
+def test_xyz_files_are_in_space(read):
+    assert read("1 2 3\n4 5 6\n", "a.xyz") == [[1, 2, 3], [4, 5, 6]]
+    assert read("1 2 3 0.5\n4 5 6 0.7\n", "a.xyz") == [[1, 2, 3], [4, 5, 6]]
+    assert read("1 2 3\n4 5 3\n", "a.xyz") == [[1, 2], [4, 5]]
+    assert read("1 2\n4 5\n", "a.xyz") == [[1, 2], [4, 5]]
+    assert read("1 2 3\n4 5 6\n", "a.xyz", dimension=2) == [[1, 2], [4, 5]]
+    assert read("1 2 3\n4 5 nan\n", "a.xyz")[0] == [1, 2, 3]
+
+
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-32"])
 def test_byte_order_marks(read, encoding):
     assert read("größe,x,y\n0,1,2\n0,3,4\n".encode(encoding)) == TWO

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from alphamesh.complex import AlphaComplex
     from alphamesh.complex3d import AlphaComplex3D
     from alphamesh.curves import MeasureCurves, measure_curves
+    from alphamesh.curves3d import MeasureCurves3D
     from alphamesh.delaunay import Delaunay, delaunay
     from alphamesh.delaunay3d import Delaunay3D
     from alphamesh.film import Film, animate
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from alphamesh.filtration3d import Filtration3D
     from alphamesh.frame import FRAME_SHAPES, Frame, FramedDelaunay, framed_delaunay
     from alphamesh.hull import ConvexHull, convex_hull
+    from alphamesh.hull3d import ConvexHull3D
     from alphamesh.io.images import sample_mask
     from alphamesh.io.meshes import MESH_FORMATS, Mesh, write_mesh
     from alphamesh.io.points import read_points
@@ -57,6 +59,7 @@ __all__ = [
     "AlphaShape3D",
     "ClippedVoronoi",
     "ConvexHull",
+    "ConvexHull3D",
     "Delaunay",
     "Delaunay3D",
     "Film",
@@ -66,6 +69,7 @@ __all__ = [
     "FramedDelaunay",
     "Holes",
     "MeasureCurves",
+    "MeasureCurves3D",
     "Mesh",
     "Nearest",
     "Persistence",
@@ -106,6 +110,7 @@ _HOMES = {
     "complex": ("AlphaComplex",),
     "complex3d": ("AlphaComplex3D",),
     "curves": ("MeasureCurves", "measure_curves"),
+    "curves3d": ("MeasureCurves3D",),
     "delaunay": ("Delaunay", "delaunay"),
     "delaunay3d": ("Delaunay3D",),
     "film": ("Film", "animate"),
@@ -113,6 +118,7 @@ _HOMES = {
     "filtration3d": ("Filtration3D",),
     "frame": ("FRAME_SHAPES", "Frame", "FramedDelaunay", "framed_delaunay"),
     "hull": ("ConvexHull", "convex_hull"),
+    "hull3d": ("ConvexHull3D",),
     "io.images": ("sample_mask",),
     "io.meshes": ("MESH_FORMATS", "Mesh", "write_mesh"),
     "io.points": ("read_points",),

@@ -8,6 +8,7 @@ import numpy as np
 
 from alphamesh._arrays import read_only
 from alphamesh.complex import AlphaComplex
+from alphamesh.curves3d import MeasureCurves3D, measure_curves_in_space
 from alphamesh.errors import DimensionError
 from alphamesh.filtration3d import filtration_in_space
 from alphamesh.shape3d import AlphaShape3D
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from alphamesh._kernels import Progress
     from alphamesh.delaunay3d import Delaunay3D
     from alphamesh.filtration3d import Filtration3D
+    from alphamesh.hull3d import ConvexHull3D
 
 __all__ = ["AlphaComplex3D"]
 
@@ -105,15 +107,21 @@ class AlphaComplex3D(AlphaComplex):
         vertices, *others = self._filtration.radii
         return read_only(np.unique(np.concatenate((vertices[:1], *others))))
 
-    # What there is in the plane alone
-
     @property
-    def convex_hull(self) -> NoReturn:
-        """Not there in space: see ``delaunay.hull_triangles``."""
-        raise DimensionError(
-            "convex_hull is the ring of a cloud in the plane; the hull of a cloud in space is "
-            "delaunay.hull_triangles"
-        )
+    def convex_hull(self) -> ConvexHull3D:  # type: ignore[override]
+        """The convex hull: the border of the triangulation."""
+        return self.delaunay.convex_hull
+
+    def measure_curves(self) -> MeasureCurves3D:  # type: ignore[override]
+        """Return volume, surface area and counts as functions of the radius, in one pass.
+
+        Returns
+        -------
+        MeasureCurves3D
+        """
+        return measure_curves_in_space(self._filtration)
+
+    # What there is in the plane alone
 
     @property
     def voronoi(self) -> NoReturn:
@@ -125,10 +133,6 @@ class AlphaComplex3D(AlphaComplex):
         raise DimensionError(
             f"restricted Voronoi cells are there in the plane alone; {_IN_PLANE}"
         )
-
-    def measure_curves(self) -> NoReturn:
-        """Not there in space."""
-        raise DimensionError(f"measure curves are there in the plane alone; {_IN_PLANE}")
 
     def plot(self, *_: Any, **__: Any) -> NoReturn:
         """Not there in space."""

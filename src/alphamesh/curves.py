@@ -17,11 +17,11 @@ if TYPE_CHECKING:
     from alphamesh._arrays import CountArray, FloatArray
     from alphamesh.filtration import Filtration
 
-__all__ = ["MeasureCurves", "measure_curves"]
+__all__ = ["MeasureCurves", "Sums", "count_up_to", "measure_curves"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class _Sums(Record):
+class Sums(Record):
     """Sums of all numbers up to a radius.
 
     Numbers come and go; what is left must not carry the rounding of what is gone. So
@@ -35,7 +35,7 @@ class _Sums(Record):
     finer: int
 
     @classmethod
-    def of(cls, radii: FloatArray, values: FloatArray) -> _Sums:
+    def of(cls, radii: FloatArray, values: FloatArray) -> Sums:
         """Return the sums of values that each come at a radius."""
         order = np.argsort(radii)  # sums of whole numbers do not depend on ties
         radii = radii.take(order)
@@ -80,8 +80,8 @@ class MeasureCurves(Record):
 
     vertex_count: int
     edge_radii: FloatArray
-    _areas: _Sums
-    _lengths: _Sums
+    _areas: Sums
+    _lengths: Sums
     _exponent: int
 
     @property
@@ -127,7 +127,7 @@ class MeasureCurves(Record):
         -------
         int64 array of the shape of `radius`
         """
-        return _count(self.triangle_radii, checked_radii(radius))
+        return count_up_to(self.triangle_radii, checked_radii(radius))
 
     def edge_count(self, radius: ArrayLike) -> CountArray:
         """Return the number of edges, singular ones and all.
@@ -138,7 +138,7 @@ class MeasureCurves(Record):
         -------
         int64 array of the shape of `radius`
         """
-        return _count(self.edge_radii, checked_radii(radius))
+        return count_up_to(self.edge_radii, checked_radii(radius))
 
     def euler_characteristic(self, radius: ArrayLike) -> CountArray:
         """Return vertices minus edges plus triangles: components minus holes.
@@ -150,7 +150,7 @@ class MeasureCurves(Record):
         int64 array of the shape of `radius`
         """
         radii = checked_radii(radius)
-        joined = _count(self.triangle_radii, radii) - _count(self.edge_radii, radii)
+        joined = count_up_to(self.triangle_radii, radii) - count_up_to(self.edge_radii, radii)
         return np.asarray(joined + self.vertex_count)
 
     def __repr__(self) -> str:
@@ -158,7 +158,8 @@ class MeasureCurves(Record):
         return f"<MeasureCurves: {changes:,} simplices come>"
 
 
-def _count(values: FloatArray, radii: FloatArray) -> CountArray:
+def count_up_to(values: FloatArray, radii: FloatArray) -> CountArray:
+    """Return how many of the ascending `values` are at most each radius, int64."""
     return np.asarray(np.searchsorted(values, radii, side="right"), dtype=np.int64)
 
 
@@ -185,7 +186,7 @@ def measure_curves(filtration: Filtration) -> MeasureCurves:
     return MeasureCurves(
         len(vertices),
         read_only(np.sort(edge_radii)),
-        _Sums.of(triangle_radii, areas),
-        _Sums.of(changes, np.concatenate((lengths, -lengths))),
+        Sums.of(triangle_radii, areas),
+        Sums.of(changes, np.concatenate((lengths, -lengths))),
         exponent,
     )

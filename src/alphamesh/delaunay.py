@@ -11,6 +11,7 @@ import numpy as np
 from alphamesh import _kernels
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.cells import locate2
+from alphamesh.delaunay3d import Delaunay3D, delaunay_in_space
 from alphamesh.errors import CoordinateRangeError, rows_text
 from alphamesh.points import as_cloud, coordinate_error
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
 
-__all__ = ["Delaunay", "delaunay", "edges_of"]
+__all__ = ["Delaunay", "delaunay", "delaunay_in_plane", "edges_of"]
 
 # A number of at least this share of another one has all of its 53 digits in the range of
 # 490 binary digits that exact sums can hold.
@@ -143,12 +144,12 @@ def edges_of(triangles: IntArray, neighbors: IntArray) -> IntArray:
 
 def delaunay(
     points: Any, *, threads: int | None = None, progress: Progress | None = None
-) -> Delaunay:
+) -> Delaunay | Delaunay3D:
     """Triangulate a cloud; every decision is exact.
 
     Parameters
     ----------
-    points : array-like of shape (n, 2)
+    points : array-like of shape (n, 2) or (n, 3)
         See :func:`alphamesh.points.as_cloud`. Duplicates are merged.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
@@ -158,7 +159,8 @@ def delaunay(
 
     Returns
     -------
-    Delaunay
+    Delaunay or Delaunay3D
+        Points with two columns lie in the plane, those with three in space.
 
     Raises
     ------
@@ -167,6 +169,16 @@ def delaunay(
     ParameterError
         If `threads` or `progress` is not what it must be.
     """
+    cloud = as_cloud(points)
+    if cloud.points.shape[1] == 3:
+        return delaunay_in_space(cloud, threads=threads, progress=progress)
+    return delaunay_in_plane(cloud, threads=threads, progress=progress)
+
+
+def delaunay_in_plane(
+    points: Any, *, threads: int | None = None, progress: Progress | None = None
+) -> Delaunay:
+    """Triangulate a cloud in the plane; see :func:`delaunay`."""
     cloud = as_cloud(points, 2)
     try:
         result = _kernels.delaunay2(cloud.points, threads, progress)

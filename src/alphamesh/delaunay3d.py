@@ -4,18 +4,28 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
-from alphamesh._kernels.space import orient3
+from alphamesh._kernels import BadCoordinates
+from alphamesh._kernels.space import alpha3, orient3, tetrahedron_triangles3
+from alphamesh.hull3d import ConvexHull3D
 from alphamesh.measures import scaled_points
+from alphamesh.points import as_cloud, coordinate_error, merged_rows
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
+    from alphamesh._kernels import Progress
 
-__all__ = ["Delaunay3D", "oriented_tetrahedra", "outward_triangles"]
+__all__ = [
+    "Delaunay3D",
+    "delaunay_in_space",
+    "oriented_tetrahedra",
+    "outward_triangles",
+    "triangulation",
+]
 
 # Tetrahedra worked on at a time: their coordinates stay in the processor's cache.
 _CHUNK = 1 << 14
@@ -74,8 +84,53 @@ class Delaunay3D(Record):
             self.points, corners[~left_out].reshape(-1, 3), corners[left_out]
         )
 
+    @cached_property
+    def convex_hull(self) -> ConvexHull3D:
+        """The convex hull, bounded by the hull triangles."""
+        return ConvexHull3D(self.points, self.hull_triangles)
+
     def __repr__(self) -> str:
         return f"<Delaunay3D: {len(self.points):,} points, {len(self.tetrahedra):,} tetrahedra>"
+
+
+def delaunay_in_space(
+    points: Any, *, threads: int | None = None, progress: Progress | None = None
+) -> Delaunay3D:
+    """Triangulate a cloud in space; see :func:`alphamesh.delaunay`, also for the errors.
+
+    Parameters
+    ----------
+    points : array-like of shape (n, 3)
+    threads, progress : optional
+
+    Returns
+    -------
+    Delaunay3D
+    """
+    cloud = as_cloud(points, 3)
+    try:
+        merged, simplices, _, cofaces = alpha3(cloud.points, threads, progress)
+    except BadCoordinates:
+        raise coordinate_error(cloud.points) from None
+    representative, _ = merged_rows(merged, len(cloud))
+    faces = tetrahedron_triangles3(simplices[2], simplices[1], cofaces)
+    return triangulation(cloud.points, representative, simplices, cofaces, faces)
+
+
+def triangulation(
+    points: FloatArray,
+    representative: IntArray,
+    simplices: tuple[IntArray, IntArray, IntArray],
+    triangle_tetrahedra: IntArray,
+    tetrahedron_triangles: IntArray,
+) -> Delaunay3D:
+    """Return the triangulation of edges, triangles and tetrahedra that know their cofaces."""
+    edges, triangles, tetrahedra = simplices
+    # The numbers on either side of a triangle sum up to one and the other.
+    both = triangle_tetrahedra.sum(axis=1, dtype=np.int32)
+    rows = np.arange(len(tetrahedra), dtype=np.int32)[:, np.newaxis]
+    neighbors = read_only(both.take(tetrahedron_triangles) - rows)
+    return Delaunay3D(points, representative, tetrahedra, neighbors, triangles, edges)
 
 
 def oriented_tetrahedra(points: FloatArray, tetrahedra: IntArray) -> IntArray:

@@ -17,7 +17,7 @@ from alphamesh.classify import (
     facet_intervals,
     least_at_vertices,
 )
-from alphamesh.delaunay3d import Delaunay3D, oriented_tetrahedra
+from alphamesh.delaunay3d import Delaunay3D, oriented_tetrahedra, triangulation
 from alphamesh.measures import tetrahedron_volumes, triangle_areas
 from alphamesh.points import as_cloud, coordinate_error, merged_rows, refuse_overflow
 
@@ -135,13 +135,12 @@ class Filtration3D(Record):
     @cached_property
     def delaunay(self) -> Delaunay3D:
         """The triangulation that the simplices are those of, with its neighbours."""
-        _, edges, triangles, tetrahedra = self.simplices
-        # On either side of a triangle, the two numbers sum up to both.
-        both = self.triangle_tetrahedra.sum(axis=1, dtype=np.int32)
-        rows = np.arange(len(tetrahedra), dtype=np.int32)[:, np.newaxis]
-        neighbors = both.take(self.tetrahedron_triangles) - rows
-        return Delaunay3D(
-            self.points, self.representative, tetrahedra, read_only(neighbors), triangles, edges
+        return triangulation(
+            self.points,
+            self.representative,
+            self.simplices[1:],
+            self.triangle_tetrahedra,
+            self.tetrahedron_triangles,
         )
 
     @cached_property

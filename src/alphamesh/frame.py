@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
-from alphamesh.delaunay import Delaunay, delaunay, edges_of
+from alphamesh.delaunay import Delaunay, delaunay_in_plane, edges_of
 from alphamesh.errors import ParameterError
 from alphamesh.hull import convex_hull
 from alphamesh.points import as_cloud
@@ -202,7 +202,7 @@ def framed_delaunay(
     count = len(cloud)
     frame_points = frame.around(cloud)
     everything = np.concatenate((cloud.points, frame_points))
-    full = delaunay(everything, threads=threads, progress=progress)
+    full = delaunay_in_plane(everything, threads=threads, progress=progress)
     if (full.representative[count:] < count).any():
         raise ParameterError(
             f"points of the frame fall on points of the cloud: a margin of {frame.margin} is "

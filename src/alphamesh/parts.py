@@ -32,6 +32,9 @@ __all__ = [
 
 _FIRST_ENCLOSED = -2
 
+# Cells worked on at a time: bounds the extra memory.
+_CHUNK = 1 << 18
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Parts(Record):
@@ -133,11 +136,15 @@ def centroids(
     origin = np.empty(count, dtype=np.int32)
     origin[labels] = cells[:, 0]
     centres = points.take(origin, axis=0)
-    start = centres.take(labels, axis=0)
-    middle = (points.take(cells, axis=0) - start[:, np.newaxis]).sum(axis=1) / cells.shape[1]
-    shares = weights / total.take(labels)
-    for axis in range(points.shape[1]):
-        centres[:, axis] += totals(labels, shares * middle[:, axis], count)
+    offsets = np.zeros(centres.shape)
+    for begin in range(0, len(cells), _CHUNK):
+        part = slice(begin, begin + _CHUNK)
+        chosen = labels[part]
+        shares = weights[part] / (total.take(chosen) * cells.shape[1])
+        for axis, column in enumerate(points.T):
+            away = column.take(cells[part]) - centres[:, axis].take(chosen)[:, np.newaxis]
+            offsets[:, axis] += totals(chosen, shares * away.sum(axis=1), count)
+    centres += offsets
     return read_only(np.ldexp(centres, exponent))
 
 

@@ -7,19 +7,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from alphamesh.check._mesh import check_edges, check_representative, proved_mesh
+from alphamesh.check._space_filtration import check_delaunay3d
 from alphamesh.check._tools import check_table, require
+from alphamesh.delaunay3d import Delaunay3D
 from alphamesh.errors import InvalidResultError
 
 if TYPE_CHECKING:
     from alphamesh.delaunay import Delaunay
 
 
-def check_delaunay(result: Delaunay) -> None:
+def check_delaunay(result: Delaunay | Delaunay3D) -> None:
     """Prove that `result` is the canonical Delaunay triangulation of its points.
 
     Parameters
     ----------
-    result : Delaunay
+    result : Delaunay or Delaunay3D
 
     Raises
     ------
@@ -27,6 +29,9 @@ def check_delaunay(result: Delaunay) -> None:
         If an invariant fails; the message and ``rows`` name the rows of the array that
         breaks it.
     """
+    if isinstance(result, Delaunay3D):
+        check_delaunay3d(result)
+        return
     check_representative(result.points, result.representative)
     mesh = proved_mesh(result.points, result.representative, result.triangles)
     check_table(result.neighbors, (len(mesh.triangles), 3), "neighbors")

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from alphamesh._kernels import dot2
 from alphamesh.check._mesh import Mesh, check_edges, check_representative, proved_mesh
-from alphamesh.check._tools import LongArray, check_table, require, signs
+from alphamesh.check._space_filtration import check_filtration3d
+from alphamesh.check._tools import LongArray, check_radii, check_table, require, signs
 from alphamesh.errors import InvalidResultError
+from alphamesh.filtration3d import Filtration3D
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
-    from alphamesh.filtration import Filtration
+    from alphamesh.filtration import AnyFiltration
 
 #: Relative error up to which `check_filtration` accepts a radius.
 RADIUS_ERROR = 1e-14
@@ -25,16 +27,17 @@ _ULP = 2.0**-52
 _NAMES = ("vertex radii", "edge radii", "triangle radii")
 
 
-def check_filtration(result: Filtration) -> None:
+def check_filtration(result: AnyFiltration) -> None:
     """Prove that `result` holds every simplex of its points with the right value.
 
     Combinatorial claims (the triangulation, which edges are Gabriel, which values are
     equal) are checked exactly; a radius itself may be off by a factor of
-    1 ± :data:`RADIUS_ERROR`, and for thin triangles by the rounding of the check, 2e-13.
+    1 ± :data:`RADIUS_ERROR`, in space 1 ± :data:`RADIUS_ERROR_IN_SPACE`, and for thin
+    simplices by the rounding of the check: 2e-13 in the plane, 1e-11 in space.
 
     Parameters
     ----------
-    result : Filtration
+    result : Filtration or Filtration3D
 
     Raises
     ------
@@ -42,6 +45,9 @@ def check_filtration(result: Filtration) -> None:
         If an invariant fails; the message and ``rows`` name the rows of the array that
         breaks it.
     """
+    if isinstance(result, Filtration3D):
+        check_filtration3d(result)
+        return
     check_representative(result.points, result.representative)
     if not len(result.simplices) == len(result.radii) == 3:
         raise InvalidResultError("simplices and radii: not one array for each dimension")
@@ -51,7 +57,7 @@ def check_filtration(result: Filtration) -> None:
     order = check_edges(edges, mesh)
     _check_cofaces(result.edge_triangles, mesh, order)
     for name, simplices, radii in zip(_NAMES, result.simplices, result.radii, strict=True):
-        _check_radii(radii, len(simplices), name)
+        check_radii(radii, len(simplices), name)
     require(result.radii[0] == 0, "vertex radii: not zero")
     _check_triangle_radii(mesh, result.radii[2])
     _check_edge_radii(mesh, edges, result.edge_triangles, *result.radii[1:])
@@ -75,15 +81,6 @@ def _check_cofaces(edge_triangles: IntArray, mesh: Mesh, rows: LongArray) -> Non
     same = (edge_triangles == expected).all(axis=1)
     swapped = (edge_triangles == expected[:, ::-1]).all(axis=1) & (expected[:, 1] >= 0)
     require(same | swapped, "edge_triangles: not the cofaces")
-
-
-def _check_radii(radii: Any, count: int, name: str) -> None:
-    good = (
-        isinstance(radii, np.ndarray) and radii.shape == (count,) and radii.dtype == np.float64
-    )
-    if not good:
-        raise InvalidResultError(f"{name}: not a float64 array of shape ({count},)")
-    require(np.isfinite(radii) & (radii >= 0), f"{name}: not finite or negative")
 
 
 def _check_triangle_radii(mesh: Mesh, radii: FloatArray) -> None:

@@ -57,9 +57,9 @@ def proved_mesh(points: FloatArray, representative: IntArray, triangles: IntArra
     vertices = np.flatnonzero(representative == np.arange(len(points)))
     points, exponent = unit_points(points)
     check_table(triangles, (len(triangles), 3), "triangles")
-    _check_simplices(triangles, representative, "triangles")
+    check_simplices(triangles, representative, "triangles")
     ends = triangles[:, [1, 2, 0, 2, 0, 1]].reshape(-1, 2).astype(np.int64)
-    mesh = Mesh(points, exponent, vertices, triangles, ends, _partners(ends))
+    mesh = Mesh(points, exponent, vertices, triangles, ends, partners(ends))
     if len(triangles) == 0:
         _check_line(points, vertices)
         return mesh
@@ -68,7 +68,7 @@ def proved_mesh(points: FloatArray, representative: IntArray, triangles: IntArra
     require(used[vertices], "points: in no triangle", vertices)
     turns = signs(orient2, points, triangles)
     require(turns != 0, "triangles: flat")
-    _check_hull(mesh, turns)
+    check_hull(mesh, turns)
     edges = len(mesh.first)
     if len(vertices) - edges + len(triangles) != 1:
         raise InvalidResultError(
@@ -79,7 +79,7 @@ def proved_mesh(points: FloatArray, representative: IntArray, triangles: IntArra
     return mesh
 
 
-def _check_simplices(simplices: IntArray, representative: IntArray, name: str) -> None:
+def check_simplices(simplices: IntArray, representative: IntArray, name: str) -> None:
     """Check ids and their order inside rows; a row that comes twice folds over itself."""
     n = len(representative)
     require(((simplices >= 0) & (simplices < n)).all(axis=1), f"{name}: no such point")
@@ -88,7 +88,7 @@ def _check_simplices(simplices: IntArray, representative: IntArray, name: str) -
     require(own, f"{name}: a duplicate in the place of its representative")
 
 
-def _partners(ends: LongArray) -> LongArray:
+def partners(ends: LongArray) -> LongArray:
     """Match the half-edges; refuse edges of more than two triangles."""
     partner = np.full(len(ends), -1, dtype=np.int64)
     if len(ends) == 0:
@@ -107,7 +107,7 @@ def _partners(ends: LongArray) -> LongArray:
     return partner
 
 
-def _check_hull(mesh: Mesh, turns: KindArray) -> None:
+def check_hull(mesh: Mesh, turns: KindArray) -> None:
     """Check that the border is one convex ring that goes round once."""
     half = np.flatnonzero(mesh.partner < 0)
     ends = mesh.ends[half]
@@ -176,10 +176,12 @@ def collinear_path(points: FloatArray, vertices: Any) -> LongArray:
     return np.sort(np.column_stack((order[:-1], order[1:])), axis=1)
 
 
-def check_representative(points: FloatArray, representative: IntArray) -> None:
+def check_representative(
+    points: FloatArray, representative: IntArray, columns: int = 2
+) -> None:
     """Check that each row points to the lowest row with equal coordinates."""
-    if points.ndim != 2 or points.shape[1] != 2 or points.dtype != np.float64:
-        raise InvalidResultError("points: not an (n, 2) float64 array")
+    if points.ndim != 2 or points.shape[1] != columns or points.dtype != np.float64:
+        raise InvalidResultError(f"points: not an (n, {columns}) float64 array")
     require(np.isfinite(points).all(axis=1), "points: not finite")
     n = len(points)
     check_table(representative, (n,), "representative")

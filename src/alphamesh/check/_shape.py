@@ -8,6 +8,7 @@ import numpy as np
 
 from alphamesh._kernels import orient2
 from alphamesh.check._mesh import unit_points
+from alphamesh.check._space_shape import check_shape3d
 from alphamesh.check._tools import (
     LongArray,
     check_table,
@@ -17,6 +18,7 @@ from alphamesh.check._tools import (
     signs,
 )
 from alphamesh.errors import InvalidResultError
+from alphamesh.shape3d import AlphaShape3D
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, IntArray
@@ -26,14 +28,14 @@ if TYPE_CHECKING:
 _MEASURE_ERROR = 1e-12
 
 
-def check_shape(result: AlphaShape) -> None:
+def check_shape(result: AlphaShape | AlphaShape3D) -> None:
     """Prove that `result` is the alpha complex of its filtration at its radius.
 
     The filtration itself is taken to be right; :func:`check_filtration` proves that.
 
     Parameters
     ----------
-    result : AlphaShape
+    result : AlphaShape or AlphaShape3D
 
     Raises
     ------
@@ -41,6 +43,9 @@ def check_shape(result: AlphaShape) -> None:
         If an invariant fails; the message and ``rows`` name the rows of the array that
         breaks it.
     """
+    if isinstance(result, AlphaShape3D):
+        check_shape3d(result)
+        return
     _check_triangles(result)
     uses = _check_edges(result)
     _check_boundary(result)

@@ -34,6 +34,16 @@ def check_table(array: Any, shape: tuple[int, ...], name: str) -> None:
         raise InvalidResultError(f"{name}: not an int32 array of shape {shape}")
 
 
+def check_radii(radii: Any, count: int, name: str) -> None:
+    """Raise unless `radii` is a float64 array of finite numbers of at least 0."""
+    good = (
+        isinstance(radii, np.ndarray) and radii.shape == (count,) and radii.dtype == np.float64
+    )
+    if not good:
+        raise InvalidResultError(f"{name}: not a float64 array of shape ({count},)")
+    require(np.isfinite(radii) & (radii >= 0), f"{name}: not finite or negative")
+
+
 def signs(
     predicate: Callable[[FloatArray], KindArray], points: FloatArray, rows: Any
 ) -> KindArray:

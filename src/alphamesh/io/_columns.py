@@ -25,16 +25,23 @@ __all__ = [
     "same_name",
     "stack",
     "wanted_columns",
+    "without_flat_z",
 ]
 
 Columns: TypeAlias = "str | Sequence[str | int] | None"
 
 
 class Wanted(NamedTuple):
-    """Which columns are asked for (empty: the usual ones), and how many are needed."""
+    """Which columns are asked for (empty: the usual ones), and how many are needed.
+
+    Where nobody says how many, `dimension` is 2, and `space` tells that a third one is
+    taken if it is there: a column z, or, if `unnamed`, just the third of three.
+    """
 
     columns: tuple[str | int, ...]
     dimension: int
+    space: bool = False
+    unnamed: bool = False
 
 
 # Names that mean coordinates, in lower case; each row is x, y, z.
@@ -63,7 +70,7 @@ def wanted_columns(columns: Columns, dimension: int | None) -> Wanted:
     if dimension not in (None, 2, 3) or isinstance(dimension, float):
         raise ParameterError(f"dimension must be 2 or 3, not {dimension!r}")
     if columns is None:
-        return Wanted((), dimension or 2)
+        return Wanted((), dimension or 2, space=dimension is None)
     wanted = _listed(columns)
     if len(wanted) != (dimension or len(wanted)) or len(wanted) not in (2, 3):
         need = f"{dimension}" if dimension else "two or three"
@@ -113,7 +120,9 @@ def choose_columns(
         return found
     known = _known_columns(source, names, dimension) if names else None
     if known is not None:
-        return known
+        return (*known, *_named_z(names, known)) if wanted.space else known
+    if wanted.space and wanted.unnamed and not names and width >= 3:
+        return 0, 1, 2
     if width < dimension:
         raise source.failure(
             f"has {_columns_text(names, width)}, and {dimension} are needed; "
@@ -169,6 +178,23 @@ def _known_columns(
                 f"unclear (not one {missing[0]!r}); choose {dimension} with columns="
             )
     return None
+
+
+def _named_z(names: Sequence[str] | None, known: tuple[int, ...]) -> tuple[int, ...]:
+    """Return the number of a column z that goes with columns x and y, if there is just one.
+
+    A height beside longitude and latitude does not: it is in other units.
+    """
+    plain = [_plain(name) for name in names or ()]
+    if [plain[k] for k in known] != ["x", "y"] or plain.count("z") != 1:
+        return ()
+    return (plain.index("z"),)
+
+
+def without_flat_z(points: FloatArray, wanted: Wanted) -> FloatArray:
+    """Return the points without a third column that was not asked for and is all one number."""
+    flat = wanted.space and points.shape[1] == 3 and (points[:, 2] == points[:1, 2]).all()
+    return np.ascontiguousarray(points[:, :2]) if flat else points
 
 
 def same_name(name: str, other: str) -> bool:

@@ -7,7 +7,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Literal
 
 from alphamesh.errors import FileReadError, ParameterError
-from alphamesh.io._columns import Columns, Wanted, wanted_columns
+from alphamesh.io._columns import Columns, Wanted, wanted_columns, without_flat_z
 from alphamesh.io._layout import TextOptions
 from alphamesh.io._npy import read_npy, read_npz
 from alphamesh.io._parquet import read_parquet
@@ -30,6 +30,9 @@ _TEXT: dict[str, str | None] = {
     "xyz": None,
 }
 _BINARY = {"npy": read_npy, "parquet": read_parquet, "ply": read_ply}
+
+# Where three columns without names are coordinates, as a rule.
+_UNNAMED = frozenset({"xyz", "npy", "npz"})
 
 _IMAGES = frozenset({"png", "jpg", "jpeg", "tif", "tiff", "gif", "bmp", "webp", "pgm", "pbm"})
 
@@ -67,8 +70,10 @@ def read_points(  # noqa: PLR0913 (one keyword per property of a text table)
         ``x``. By default the columns called x and y, or lon(gitude) and lat(itude), or
         east(ing) and north(ing); if no name is one of these, the first columns.
     dimension : {2, 3}, optional
-        How many coordinates to read: by default as many as `columns`, else 2, so that
-        a column z is left out.
+        How many coordinates to read: by default as many as `columns`. Without these, 3
+        if there is a column z beside x and y, as in most PLY files, or if an XYZ, NPY or
+        NPZ file has three columns without names, unless all z are equal; else 2. So
+        ``dimension=2`` leaves z out.
     file_format : str, optional
         One of :data:`POINT_FORMATS`, whatever the extension says.
     delimiter : str, optional
@@ -116,7 +121,8 @@ def read_points(  # noqa: PLR0913 (one keyword per property of a text table)
     name = os.fspath(path)
     kind = _format_of(name, file_format)
     _refuse_idle(kind, options, key)
-    return _read(open_source(name), kind, wanted, options, key)
+    wanted = wanted._replace(unnamed=kind in _UNNAMED)
+    return without_flat_z(_read(open_source(name), kind, wanted, options, key), wanted)
 
 
 def _read(
