@@ -16,6 +16,7 @@ __all__ = [
     "EmptyMaskError",
     "FileReadError",
     "FileWriteError",
+    "GeographicCoordinatesWarning",
     "InvalidResultError",
     "LossyFormatWarning",
     "MissingLibraryError",
@@ -117,3 +118,7 @@ class AlphameshWarning(UserWarning):
 
 class LossyFormatWarning(AlphameshWarning):
     """A file format that cannot hold all of what is written; the message names the loss."""
+
+
+class GeographicCoordinatesWarning(AlphameshWarning):
+    """Points in degrees of longitude and latitude, where a radius is distorted."""

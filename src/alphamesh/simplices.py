@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -48,6 +48,11 @@ class SimplexSet(Record):
     def points(self) -> FloatArray:
         """The cloud, ``(n, 2)`` float64; duplicates and all."""
         return self.filtration.points
+
+    @property
+    def crs(self) -> Any:
+        """The coordinate reference system that came with the points, or None."""
+        return self.filtration.crs
 
     # Which simplices
 
