@@ -18,7 +18,7 @@ from alphamesh.errors import (
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray
 
-__all__ = ["as_crs", "crs_of", "holds_geometries", "point_table"]
+__all__ = ["as_crs", "crs_of", "geopandas", "holds_geometries", "point_table"]
 
 _PURPOSE = "Reading points of geometries"
 _DROP = "drop them: frame[~(frame.geometry.isna() | frame.geometry.is_empty)]"
@@ -72,6 +72,21 @@ def as_crs(crs: Any) -> Any:
         ) from error
 
 
+def geopandas(purpose: str) -> Any:
+    """Return the module geopandas.
+
+    Raises
+    ------
+    MissingLibraryError
+        If it is not installed; the message says that `purpose` needs it.
+    """
+    try:
+        import geopandas as library
+    except ImportError as missing:
+        raise MissingLibraryError.of("geopandas", "geo", purpose) from missing
+    return library
+
+
 def point_table(points: Any, dimension: int = 2) -> FloatArray:
     """Return the coordinates of points, one row each, in the order they come.
 
@@ -110,11 +125,11 @@ def _geometries(shapely: Any, points: Any) -> Any:
         made = np.empty(len(points), dtype=np.object_)
         made[:] = points
     else:
-        made = np.asarray(points, dtype=np.object_)
+        made = np.array(points, dtype=np.object_)
     strange = [
         row
         for row, item in enumerate(made)
-        if not (item is None or isinstance(item, shapely.Geometry) or item != item)  # noqa: PLR0124
+        if not (isinstance(item, shapely.Geometry) or _is_nothing(item))
     ]
     if strange:
         raise CloudShapeError(
@@ -122,7 +137,15 @@ def _geometries(shapely: Any, points: Any) -> Any:
             f"{rows_text(strange[:6], total=len(strange))}; give points of one kind",
             rows=strange[:6],
         )
-    return np.where([isinstance(item, shapely.Geometry) for item in made], made, None)
+    # What pandas has for nothing becomes None.
+    made[[not isinstance(item, shapely.Geometry) for item in made]] = None
+    return made
+
+
+def _is_nothing(item: Any) -> bool:
+    """Whether this is None, or what pandas puts in its place."""
+    nan = isinstance(item, float) and item != item  # noqa: PLR0124
+    return item is None or nan or type(item).__name__ == "NAType"
 
 
 def _refuse_missing(missing: BoolArray) -> None:

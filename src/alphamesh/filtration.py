@@ -219,7 +219,6 @@ def filtration(
         If the points come with a reference system of longitudes and latitudes.
     """
     cloud = as_cloud(points)
-    warn_of_degrees(cloud)
     if cloud.points.shape[1] == 3:
         return filtration_in_space(cloud, threads=threads, progress=progress)
     return filtration_in_plane(cloud, threads=threads, progress=progress)
@@ -230,6 +229,7 @@ def filtration_in_plane(
 ) -> Filtration:
     """Compute the alpha filtration of a cloud in the plane; see :func:`filtration`."""
     cloud = as_cloud(points, 2)
+    warn_of_degrees(cloud)
     try:
         result = _kernels.alpha2(cloud.points, threads, progress)
     except _kernels.BadCoordinates:

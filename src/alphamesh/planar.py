@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import read_only
+from alphamesh.attributed import AttributedShape
 from alphamesh.classify import SimplexKind
 from alphamesh.outline import Rings, outline
 from alphamesh.parts import Parts, as_cell_mask, chosen_regions, labelled, large_regions
@@ -29,7 +30,6 @@ from alphamesh.regions import (
     find_regions,
     without_holes,
 )
-from alphamesh.simplices import SimplexSet
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
@@ -39,7 +39,7 @@ __all__ = ["PlanarShape", "Selection"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class PlanarShape(SimplexSet):
+class PlanarShape(AttributedShape):
     """Simplices in the plane, and what their triangles make up.
 
     Outlines, regions, holes and queries are about the triangles alone, the regularized

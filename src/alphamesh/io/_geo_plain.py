@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from alphamesh._geopoints import geopandas
 from alphamesh.errors import FileReadError, MissingLibraryError
 
 __all__ = [
-    "geopandas",
     "read_geoparquet",
     "read_wkb",
     "read_wkt",
@@ -18,21 +18,6 @@ __all__ = [
     "write_wkb",
     "write_wkt",
 ]
-
-
-def geopandas(purpose: str) -> Any:
-    """Return the module geopandas.
-
-    Raises
-    ------
-    MissingLibraryError
-        If it is not installed; the message says that `purpose` needs it.
-    """
-    try:
-        import geopandas as library
-    except ImportError as missing:
-        raise MissingLibraryError.of("geopandas", "geo", purpose) from missing
-    return library
 
 
 def write_geoparquet(frame: Any, temporary: Path, path: Path, layer: str | None) -> None:
@@ -71,16 +56,14 @@ def read_wkt(path: Path, layer: str | None) -> Any:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
-        raise FileReadError(f"'{path}' is not WKT but binary: {error}") from error
-    lines = [
-        (number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()
-    ]
+        raise FileReadError(f"{path} is not a text of WKT but binary ({error})") from error
+    lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
     found = shapely.from_wkt([line for _, line in lines], on_invalid="ignore")
     for (number, line), geometry in zip(lines, found, strict=True):
         if geometry is None:
             raise FileReadError(
-                f"'{path}' holds no geometry in line {number} ({line.strip()[:40]!r}); each "
-                "line must be one complete geometry in WKT"
+                f"{path} is not a complete WKT file: line {number} holds no geometry "
+                f"({line.strip()[:40]!r}); each line must hold one"
             )
     return geopandas("Reading WKT files").GeoDataFrame(geometry=found)
 
@@ -110,7 +93,7 @@ def read_wkb(path: Path, layer: str | None) -> Any:
         found = shapely.from_wkb(path.read_bytes())
     except shapely.errors.GEOSException as error:
         raise FileReadError(
-            f"'{path}' is not one complete geometry in WKB ({error}); write or copy it again"
+            f"{path} is not a complete WKB file ({error}); write or copy it again"
         ) from error
     return geopandas("Reading WKB files").GeoDataFrame(
         geometry=np.array([found], dtype=np.object_)

@@ -108,7 +108,7 @@ def reader(driver: str) -> Callable[[Path, str | None], Any]:
         info = pyogrio.read_info(path, layer=name, force_feature_count=True)
         if info["driver"] != driver:
             raise FileReadError(
-                f"'{path}' is a file of {info['driver']}, not of {driver} as its name says; "
+                f"{path} is a file of {info['driver']}, not of {driver} as its name says; "
                 "rename it, or pass file_format="
             )
         with warnings.catch_warnings():
@@ -116,10 +116,10 @@ def reader(driver: str) -> Callable[[Path, str | None], Any]:
             warnings.simplefilter("error", RuntimeWarning)
             frame = pyogrio.read_dataframe(path, layer=name)
         if not hasattr(frame, "geometry"):
-            raise FileReadError(f"'{path}' holds no geometries in the layer {name!r}")
+            raise FileReadError(f"{path} holds no geometries in the layer {name!r}")
         if len(frame) != info["features"]:
             raise FileReadError(
-                f"'{path}' is cut off: it promises {info['features']:,} rows and has "
+                f"{path} is cut off: it promises {info['features']:,} rows and has "
                 f"{len(frame):,}; write or copy it again"
             )
         return frame
@@ -135,5 +135,5 @@ def _only_layer(pyogrio: Any, path: Path) -> str:
         return spatial[0]
     listed = ", ".join(repr(name) for name, _ in layers[:12]) or "none"
     if not spatial:
-        raise FileReadError(f"'{path}' has no layer with geometries; its layers: {listed}")
-    raise FileReadError(f"'{path}' has several layers; choose with layer= one of: {listed}")
+        raise FileReadError(f"{path} has no layer with geometries; its layers: {listed}")
+    raise FileReadError(f"{path} has several layers; choose with layer= one of: {listed}")

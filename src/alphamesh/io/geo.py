@@ -29,12 +29,13 @@ from alphamesh.io._geo_plain import (
 )
 from alphamesh.io._geo_vector import (
     reader,
-    write_geojson,
     write_flatgeobuf,
+    write_geojson,
     write_geopackage,
     write_shapefile,
     write_zipped_shapefile,
 )
+from alphamesh.io._sources import read_failure
 
 __all__ = ["GEO_FORMATS", "GeoFormat", "geo_format", "read_geo", "write_geo"]
 
@@ -246,14 +247,14 @@ def read_geo(
         If geopandas, or pyogrio or pyarrow beneath it, is not installed.
     """
     chosen = geo_format(path, file_format, layer=layer, reading=True)
-    shown = f"'{os.fspath(path)}'"
+    name = os.fspath(path)
     try:
         with Path(path).open("rb") as file:
             empty = not file.read(1)
     except OSError as error:
-        raise FileReadError(f"cannot read {shown}: {error.strerror}") from error
+        raise read_failure(name, error) from error
     if empty:
-        raise FileReadError(f"{shown} is empty (0 bytes); was it written to the end?")
+        raise FileReadError(f"{name} is empty (0 bytes); was it written to the end?")
     try:
         return chosen.read(Path(path), layer)
     except AlphameshError:
@@ -263,9 +264,10 @@ def read_geo(
             missing.name or "pyogrio", "geo", f"Reading {chosen.name} files"
         ) from missing
     except Exception as error:  # GDAL fails in any way on a file that is not as expected
+        detail = str(error).partition("; It might help")[0].rstrip(".")
         raise FileReadError(
-            f"cannot read {shown} as {chosen.name} ({error}); it is damaged, cut off or of "
-            "another format: write or copy it again"
+            f"{name} is not a complete {chosen.name} file ({detail or type(error).__name__}); "
+            "write or copy it again"
         ) from error
 
 

@@ -29,6 +29,7 @@ from alphamesh.io._mesh_plain import (
     write_ply,
     write_stl,
 )
+from alphamesh.io._vertex_data import tell_of_lost_data, vertex_data
 
 __all__ = [
     "MESH_FORMATS",
@@ -37,6 +38,8 @@ __all__ = [
     "compact",
     "mesh_format",
     "read_mesh",
+    "tell_of_lost_data",
+    "vertex_data",
     "write_mesh",
 ]
 
