@@ -6,18 +6,18 @@ import shutil
 import tempfile
 import warnings
 import zipfile
-from collections.abc import Callable
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
 from alphamesh.errors import FileReadError, MissingLibraryError
 from alphamesh.io._atomic import atomic_path
+from alphamesh.io._geo_frames import with_named_index
 
 __all__ = [
     "reader",
     "write_flatgeobuf",
-    "write_geojson",
     "write_geopackage",
     "write_shapefile",
     "write_zipped_shapefile",
@@ -42,36 +42,31 @@ def _write(frame: Any, path: Path, driver: str, layer: str, **options: Any) -> N
         # Tables without a reference system are written without one.
         warnings.filterwarnings("ignore", "'crs' was not provided", UserWarning)
         pyogrio.write_dataframe(
-            _with_named_index(frame), path, layer=layer, driver=driver, **options
+            with_named_index(frame), path, layer=layer, driver=driver, **options
         )
-
-
-def _with_named_index(frame: Any) -> Any:
-    """Return the table with its index as columns, if it has names."""
-    if any(name is not None for name in frame.index.names):
-        return frame.reset_index()
-    return frame
-
-
-def write_geojson(frame: Any, temporary: Path, path: Path, layer: str | None) -> None:
-    """Write GeoJSON, with as many digits as float64 needs."""
-    temporary.unlink()
-    _write(frame, temporary, "GeoJSON", path.stem, SIGNIFICANT_FIGURES=17)
 
 
 def write_geopackage(frame: Any, temporary: Path, path: Path, layer: str | None) -> None:
     """Write a GeoPackage, or one layer of the one that is there."""
-    if layer is not None and path.exists():
-        shutil.copyfile(path, temporary)
-    else:
-        temporary.unlink()
-    _write(frame, temporary, "GPKG", layer or path.stem)
+    with _named(temporary, ".gpkg") as made:
+        if layer is not None and path.exists():
+            shutil.copyfile(path, made)
+        _write(frame, made, "GPKG", layer or path.stem)
 
 
 def write_flatgeobuf(frame: Any, temporary: Path, path: Path, layer: str | None) -> None:
     """Write FlatGeobuf; its index would sort the rows."""
-    temporary.unlink()
-    _write(frame, temporary, "FlatGeobuf", path.stem, SPATIAL_INDEX="NO")
+    with _named(temporary, ".fgb") as made:
+        _write(frame, made, "FlatGeobuf", path.stem, SPATIAL_INDEX="NO")
+
+
+@contextmanager
+def _named(temporary: Path, suffix: str) -> Iterator[Path]:
+    """Give a file with the extension that a driver wants; then fill `temporary` with it."""
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder, f"made{suffix}")
+        yield made
+        shutil.copyfile(made, temporary)
 
 
 def write_zipped_shapefile(frame: Any, temporary: Path, path: Path, layer: str | None) -> None:
@@ -104,19 +99,17 @@ def reader(driver: str) -> Callable[[Path, str | None], Any]:
 
     def read(path: Path, layer: str | None) -> Any:
         pyogrio = _pyogrio(f"Reading {driver} files")
-        name = layer or _only_layer(pyogrio, path)
-        info = pyogrio.read_info(path, layer=name, force_feature_count=True)
-        if info["driver"] != driver:
-            raise FileReadError(
-                f"{path} is a file of {info['driver']}, not of {driver} as its name says; "
-                "rename it, or pass file_format="
-            )
         with warnings.catch_warnings():
-            # GDAL tells of damage in warnings; a file that it doubts is not read by us.
-            warnings.simplefilter("error", RuntimeWarning)
-            frame = pyogrio.read_dataframe(path, layer=name)
+            # Of names that do not go with a format; what it is, is looked at below.
+            warnings.simplefilter("ignore", RuntimeWarning)
+            name = layer or _only_layer(pyogrio, path, driver)
+            info = pyogrio.read_info(path, layer=name, force_feature_count=True)
+        _refuse_driver(path, info["driver"], driver)
+        if path.suffix.lower() == ".shp":
+            _refuse_short_shapefile(path)
+        frame = pyogrio.read_dataframe(path, layer=name)
         if not hasattr(frame, "geometry"):
-            raise FileReadError(f"{path} holds no geometries in the layer {name!r}")
+            raise FileReadError(f"{path} has no geometries in the layer {name!r}")
         if len(frame) != info["features"]:
             raise FileReadError(
                 f"{path} is cut off: it promises {info['features']:,} rows and has "
@@ -127,9 +120,12 @@ def reader(driver: str) -> Callable[[Path, str | None], Any]:
     return read
 
 
-def _only_layer(pyogrio: Any, path: Path) -> str:
+def _only_layer(pyogrio: Any, path: Path, driver: str) -> str:
     """Return the name of the one layer with geometries."""
     layers = [(str(name), kind) for name, kind in pyogrio.list_layers(path).tolist()]
+    if layers:
+        info = pyogrio.read_info(path, layer=layers[0][0])
+        _refuse_driver(path, info["driver"], driver)
     spatial = [name for name, kind in layers if kind is not None]
     if len(spatial) == 1:
         return spatial[0]
@@ -137,3 +133,25 @@ def _only_layer(pyogrio: Any, path: Path) -> str:
     if not spatial:
         raise FileReadError(f"{path} has no layer with geometries; its layers: {listed}")
     raise FileReadError(f"{path} has several layers; choose with layer= one of: {listed}")
+
+
+def _refuse_driver(path: Path, found: str, driver: str) -> None:
+    if found != driver:
+        raise FileReadError(
+            f"{path} is a file of {found}, not of {driver} as its name says; rename it, or "
+            "pass file_format="
+        )
+
+
+def _refuse_short_shapefile(path: Path) -> None:
+    """Refuse a shapefile that is shorter than it says; GDAL reads on without a word."""
+    for part in (path, path.with_suffix(".shx")):
+        if not part.exists():
+            continue
+        with part.open("rb") as file:
+            words = int.from_bytes(file.read(28)[24:], "big")
+        if part.stat().st_size < 2 * words:
+            raise FileReadError(
+                f"{part} is cut off: it promises {2 * words:,} bytes and has "
+                f"{part.stat().st_size:,}; write or copy it again"
+            )

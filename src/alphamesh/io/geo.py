@@ -19,6 +19,7 @@ from alphamesh.errors import (
     ParameterError,
 )
 from alphamesh.io._atomic import atomic_path
+from alphamesh.io._geo_json import write_geojson
 from alphamesh.io._geo_plain import (
     read_geoparquet,
     read_wkb,
@@ -30,7 +31,6 @@ from alphamesh.io._geo_plain import (
 from alphamesh.io._geo_vector import (
     reader,
     write_flatgeobuf,
-    write_geojson,
     write_geopackage,
     write_shapefile,
     write_zipped_shapefile,
@@ -68,8 +68,8 @@ class GeoFormat:
 
 _GEOJSON = GeoFormat(
     "GeoJSON",
-    "text; every number exact; a reference system other than WGS 84 is kept as the member "
-    "`crs`, which RFC 7946 no longer knows, but most programs do",
+    "text; every number exact; the reference system is the member `crs`, which RFC 7946 no "
+    "longer knows, but most programs do; without one, the file is read as WGS 84",
     write_geojson,
     reader("GeoJSON"),
 )
@@ -102,7 +102,7 @@ GEO_FORMATS: dict[str, GeoFormat] = {
     ".shp": GeoFormat(
         "shapefile",
         "several files (.shp, .shx, .dbf, .prj, .cpg); one kind of geometry, names of ten "
-        "letters, 254 letters of text, no times",
+        "letters, 254 letters of text, numbers of 15 decimals, no times, nothing empty",
         write_shapefile,
         reader("ESRI Shapefile"),
     ),
