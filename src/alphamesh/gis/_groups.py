@@ -106,8 +106,8 @@ def alpha_shapes(  # noqa: PLR0913 (each option is of use alone)
     # Without keys there is one group, of no point perhaps.
     made = table[keys].iloc[[rows[0] for rows in groups] if keys else [0][: len(table)]]
     made = made.reset_index(drop=True)
-    for name, values in zip(_FACTS, zip(*facts, strict=True), strict=True):
-        made[name] = list(values)
+    for k, name in enumerate(_FACTS):
+        made[name] = [fact[k] for fact in facts]
     return library.GeoDataFrame(made, geometry=geometries, crs=table.crs)
 
 

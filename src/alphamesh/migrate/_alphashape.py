@@ -50,12 +50,14 @@ def alphashape(points: Any, alpha: float | None = None) -> Any:
     """
     cloud = as_cloud(points)
     shapely = _shapely.library(_PURPOSE)
-    value = None if alpha is None else alpha_of(alpha)
-    if len(cloud) < 4 or (value is not None and value <= 0):
+    few = len(cloud) < 4
+    if alpha is not None:
+        value = alpha_of(alpha)
+    else:
+        value = 0.0 if few else optimizealpha(cloud)
+    if few or value <= 0:
         made = shapely.convex_hull(shapely.multipoints(cloud.points))
     else:
-        if value is None:
-            value = optimizealpha(cloud)
         shape = AlphaComplex(Cloud(cloud.points)).at(just_below(value))
         made = shape.geometry()
         if len(shape.regions) == 1:
