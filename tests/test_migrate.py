@@ -37,11 +37,6 @@ class TestAlphashape:
             mine = migrate.alphashape(points, alpha)
             assert mine.equals(ours(points, alpha).geometry())
 
-    def test_the_same_alpha_is_chosen(self):
-        peer = pytest.importorskip("alphashape")
-        points = RANDOM[0][0]
-        assert migrate.optimizealpha(points) == pytest.approx(peer.optimizealpha(points))
-
     def test_the_chosen_one_holds_all_points_in_one_piece(self):
         for points, _ in RANDOM:
             shape = migrate.alphashape(points)

@@ -51,10 +51,8 @@ def alphashape(points: Any, alpha: float | None = None) -> Any:
     cloud = as_cloud(points)
     shapely = _shapely.library(_PURPOSE)
     few = len(cloud) < 4
-    if alpha is not None:
-        value = alpha_of(alpha)
-    else:
-        value = 0.0 if few else optimizealpha(cloud)
+    best = 0.0 if few or alpha is not None else optimizealpha(cloud)
+    value = best if alpha is None else alpha_of(alpha)
     if few or value <= 0:
         made = shapely.convex_hull(shapely.multipoints(cloud.points))
     else:
@@ -83,9 +81,9 @@ def optimizealpha(points: Any) -> float:
 
     Notes
     -----
-    There, a bisection looks for it, at most 10,000 times, and can miss it: the number of
-    pieces can go up and down as alpha grows. Here, it is the rule ``"one-region"`` of
-    :func:`alphamesh.choose_radius`, in one pass.
+    There, a bisection looks for it, and can miss it: the number of pieces can go up and
+    down as alpha grows. With version 2 of shapely it fails. Here, it is the rule
+    ``"one-region"`` of :func:`alphamesh.choose_radius`, in one pass.
     """
     cx = AlphaComplex(Cloud(as_cloud(points).points))
     if cx.dimension < 2:
