@@ -94,6 +94,22 @@ class TestPointsIn:
         assert [Path(one.filename) for one in told] == [Path(__file__)]
 
 
+class TestQueries:
+    def test_points_of_the_same_system(self):
+        shape = am.AlphaComplex(FRAME).at(20)
+        inside = shape.contains(FRAME)
+        assert np.array_equal(inside, shape.contains(POINTS)) and inside.any()
+        assert np.array_equal(shape.nearest(FRAME.geometry).edges, shape.nearest(POINTS).edges)
+        plain = am.AlphaComplex(POINTS).at(20)  # nobody knows where it is
+        assert np.array_equal(plain.distance(FRAME), shape.distance(FRAME))
+
+    @pytest.mark.parametrize("method", ["contains", "region_of", "nearest", "distance"])
+    def test_points_of_another_system_are_refused(self, method):
+        shape = am.AlphaComplex(FRAME).at(20)
+        with pytest.raises(ParameterError, match=r"UTM zone 33N.*UTM zone 32N.*to_crs"):
+            getattr(shape, method)(FRAME.to_crs(25833))
+
+
 class TestTables:
     def test_regions(self):
         shape = am.AlphaComplex(FRAME).at()

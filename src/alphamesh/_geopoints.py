@@ -126,19 +126,15 @@ def _geometries(shapely: Any, points: Any) -> Any:
         made[:] = points
     else:
         made = np.array(points, dtype=np.object_)
-    strange = [
-        row
-        for row, item in enumerate(made)
-        if not (isinstance(item, shapely.Geometry) or _is_nothing(item))
-    ]
+    given = shapely.is_geometry(made)
+    strange = [row for row in np.flatnonzero(~given).tolist() if not _is_nothing(made[row])]
     if strange:
         raise CloudShapeError(
             f"no geometry but a {type(made[strange[0]]).__name__} in "
             f"{rows_text(strange[:6], total=len(strange))}; give points of one kind",
             rows=strange[:6],
         )
-    # What pandas has for nothing becomes None.
-    made[[not isinstance(item, shapely.Geometry) for item in made]] = None
+    made[~given] = None  # also what pandas has for nothing
     return made
 
 

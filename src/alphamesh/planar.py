@@ -234,6 +234,8 @@ class PlanarShape(AttributedShape):
         CloudShapeError, NonFiniteError, CoordinateRangeError
             If `points` is not a table of finite numbers of the scale of the cloud; the
             message names the rows.
+        ParameterError
+            If they come with another reference system than that of the shape.
         """
         return read_only(self.region_of(points) >= 0)
 
@@ -248,7 +250,7 @@ class PlanarShape(AttributedShape):
             Numbers of :attr:`regions`; -1 outside. Regions are closed: where two of them
             touch, the lower number is returned.
         """
-        queries = as_queries(points)
+        queries = as_queries(points, self.crs)
         return regions_at(
             self.filtration.delaunay, self._parts.labels, self.regions.vertex_labels, queries
         )
@@ -269,7 +271,7 @@ class PlanarShape(AttributedShape):
         CloudShapeError, NonFiniteError
             If `points` is not a table of finite numbers; the message names the rows.
         """
-        return nearest_edges(self._edge_tree, as_queries(points))
+        return nearest_edges(self._edge_tree, as_queries(points, self.crs))
 
     def distance(self, points: Any, *, signed: bool = False) -> FloatArray:
         """Return how far each point is from the shape, in the units of the points.
@@ -291,7 +293,7 @@ class PlanarShape(AttributedShape):
         CloudShapeError, NonFiniteError, CoordinateRangeError
             See :meth:`contains`.
         """
-        queries = as_queries(points)
+        queries = as_queries(points, self.crs)
         inside = self.contains(queries)
         distances = nearest_edges(self._edge_tree, queries).distances
         inner = -distances if signed else np.zeros(len(queries))
