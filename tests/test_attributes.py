@@ -115,6 +115,20 @@ class TestMeshes:
             assert table.columns[name].tolist() == values.tolist()
             assert table.columns[name].dtype.kind == values.dtype.kind
 
+    @pytest.mark.parametrize("extension", [".npz", ".ply"])
+    def test_in_space_too(self, tmp_path, extension):
+        points = np.random.default_rng(1).random((60, 3))
+        table = am.PointTable(points, {"heat": points[:, 2] / 3, "name": ["a"] * 60})
+        shape = am.AlphaComplex(table).at(np.inf)
+        path = tmp_path / f"a{extension}"
+        with pytest.warns(LossyFormatWarning, match="left out 'name'"):
+            shape.save(path, point_data=table, keep_all=True)
+        found = am.read_table(path, dimension=3)
+        assert np.array_equal(found.points, points)
+        assert found.columns["heat"].tolist() == table.columns["heat"].tolist()
+        with pytest.warns(LossyFormatWarning, match="hold no numbers of points"):
+            shape.save(tmp_path / "a.stl", point_data={"heat": points[:, 2]})
+
     def test_names_fit_all_files(self):
         mesh = am.AlphaComplex(EIGHT).at(20).mesh({"Höhe [m]": EIGHT[:, 0]})
         assert list(mesh.point_data) == ["H_he_[m]"]

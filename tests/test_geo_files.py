@@ -45,7 +45,8 @@ def comparable(frame, extension):
         found = np.array([None if g is None or g.is_empty else g for g in found])
     if extension == ".wkb" and len(found) == 1 and hasattr(found[0], "geoms"):
         found = shapely.get_parts(found)
-    return shapely.normalize(found)
+    with np.errstate(all="ignore"):  # shapely's squares of huge coordinates
+        return shapely.normalize(found)
 
 
 @pytest.mark.parametrize("extension", FORMATS)

@@ -63,6 +63,13 @@ class TestPointsIn:
         lifted = geopandas.GeoSeries(shapely.force_3d(FRAME.geometry.to_numpy(), 5.0))
         assert np.array_equal(am.AlphaComplex(lifted).points, POINTS)
 
+    def test_tables_in_space_are_taken_in_space(self):
+        table = am.PointTable(np.random.default_rng(1).random((30, 3)), crs=UTM)
+        cx = am.AlphaComplex(table)
+        assert isinstance(cx, am.AlphaComplex3D)
+        assert np.array_equal(cx.points, table.points)
+        assert cx.crs == cx.at(1).crs == table.crs
+
     @pytest.mark.parametrize(
         ("geometries", "message", "rows"),
         [
