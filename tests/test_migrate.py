@@ -244,3 +244,47 @@ class TestMatlab:
         assert migrate.alphaShape([[0, 0], [1, 1], [2, 2]]).area() == 0
         with pytest.raises(ParameterError, match="type must be one of"):
             migrate.alphaShape([[0, 0]]).criticalAlpha("all")
+
+
+class TestOpen3D:
+    def facets(self, points, alpha):
+        """Return the triangles of one filled tetrahedron, by definition."""
+        spatial = pytest.importorskip("scipy.spatial")
+        found = {}
+        for corners in spatial.Delaunay(points).simplices:
+            a, *rest = points[corners]
+            sides = np.array(rest) - a
+            centre = np.linalg.solve(2 * sides, (sides**2).sum(axis=1))
+            if np.linalg.norm(centre) <= alpha:
+                for facet in itertools.combinations(sorted(corners.tolist()), 3):
+                    found[facet] = found.get(facet, 0) + 1
+        return {facet for facet, times in found.items() if times == 1}
+
+    def test_the_surface_of_the_filled_tetrahedra(self):
+        class Cloud:  # as that of Open3D has it
+            points = RNG.random((80, 3)).tolist()
+
+        points = np.array(Cloud.points)
+        for alpha in (0.12, 0.2, 0.5, 9):
+            mesh = migrate.create_from_point_cloud_alpha_shape(Cloud, alpha)
+            rows = mesh.point_data["input_row"][mesh.cells["triangle"]]
+            assert {tuple(sorted(row)) for row in rows.tolist()} == self.facets(points, alpha)
+            assert np.array_equal(mesh.points, points[mesh.point_data["input_row"]])
+
+    def test_triangles_look_outward(self):
+        points = RNG.random((200, 3))
+        shape = am.AlphaComplex(points).at(np.inf)
+        mesh = migrate.create_from_point_cloud_alpha_shape(points, np.inf)
+        a, b, c = (mesh.points[mesh.cells["triangle"][:, k]] for k in range(3))
+        inside = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+        assert inside == pytest.approx(shape.volume)
+
+    def test_points_in_the_plane_are_refused(self):
+        with pytest.raises(CloudShapeError, match="three columns"):
+            migrate.create_from_point_cloud_alpha_shape(RANDOM[0][0], 1)
+
+
+@pytest.mark.parametrize("name", ["alphashape", "alpha_shape_auto", "alphaShape", "Delaunay"])
+def test_points_in_space_are_refused_by_those_in_the_plane(name):
+    with pytest.raises(CloudShapeError, match="two columns"):
+        getattr(migrate, name)(RNG.random((9, 3)))

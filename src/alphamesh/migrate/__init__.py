@@ -10,6 +10,7 @@ from __future__ import annotations
 from alphamesh.migrate._alphashape import alphashape, optimizealpha
 from alphamesh.migrate._libpysal import alpha_shape, alpha_shape_auto
 from alphamesh.migrate._matlab import alphaShape
+from alphamesh.migrate._open3d import create_from_point_cloud_alpha_shape
 from alphamesh.migrate._scipy import Delaunay
 
 __all__ = [
@@ -18,5 +19,6 @@ __all__ = [
     "alpha_shape",
     "alpha_shape_auto",
     "alphashape",
+    "create_from_point_cloud_alpha_shape",
     "optimizealpha",
 ]

@@ -46,9 +46,10 @@ def alphashape(points: Any, alpha: float | None = None) -> Any:
     - Holes are kept. There they are filled, as it takes the union of all polygons that
       the boundary edges enclose. To fill them: ``shape.filtered(max_hole_area=inf)``.
     - Decisions are exact; there, Qhull and the radii are rounded.
-    - `alpha` cannot be a function of the triangle, and points are in the plane.
+    - `alpha` cannot be a function of the triangle, and points are in the plane; for points
+      in space, see :func:`create_from_point_cloud_alpha_shape`.
     """
-    cloud = as_cloud(points)
+    cloud = as_cloud(points, 2)
     shapely = _shapely.library(_PURPOSE)
     few = len(cloud) < 4
     best = 0.0 if few or alpha is not None else optimizealpha(cloud)
@@ -85,7 +86,7 @@ def optimizealpha(points: Any) -> float:
     down as alpha grows. With version 2 of shapely it fails. Here, it is the rule
     ``"one-region"`` of :func:`alphamesh.choose_radius`, in one pass.
     """
-    cx = AlphaComplex(Cloud(as_cloud(points).points))
+    cx = AlphaComplex(Cloud(as_cloud(points, 2).points))
     if cx.dimension < 2:
         return 0.0
     radius = cx.choose_radius("one-region").radius

@@ -50,7 +50,7 @@ def alpha_shape(xys: Any, alpha: float) -> Any:
     """
     library = _geopoints.geopandas("alpha_shape")
     value = alpha_of(alpha)
-    cloud = as_cloud(xys)
+    cloud = as_cloud(xys, 2)
     shape = AlphaComplex(cloud).at(just_below(value))
     return library.GeoSeries(shape.polygons(), crs=cloud.crs)
 
@@ -93,7 +93,7 @@ def alpha_shape_auto(
     large ones it keeps others, too. Points times 1024, for instance, give the same as
     here. For a shape with holes, or of several pieces: ``AlphaComplex(xys).at()``.
     """
-    cx = AlphaComplex(as_cloud(xys).points)
+    cx = AlphaComplex(as_cloud(xys, 2).points)
     shapely = _shapely.library("alpha_shape_auto")
     radius = _tightest(cx.filtration) if cx.dimension == 2 else 0.0
     parts = cx.at(radius).polygons()

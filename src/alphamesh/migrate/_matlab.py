@@ -9,6 +9,7 @@ import numpy as np
 from alphamesh._arrays import read_only
 from alphamesh.complex import AlphaComplex
 from alphamesh.errors import ParameterError
+from alphamesh.points import as_cloud
 from alphamesh.queries import as_queries, edge_tree, nearest_edges
 
 if TYPE_CHECKING:
@@ -46,7 +47,8 @@ class alphaShape:  # noqa: N801 - MATLAB's own name
     Differences from MATLAB: rows, regions and triangles count from 0; duplicates stay in
     `Points` and are merged in results; regions are numbered by area, the largest first;
     decisions are exact. Of `boundaryFacets` the edges run counter-clockwise, with the
-    shape on their left. Points on one line give a shape without area, no error.
+    shape on their left. Points on one line give a shape without area, no error. Points are
+    in the plane; for those in space, see :class:`alphamesh.AlphaComplex3D`.
 
     Examples
     --------
@@ -64,7 +66,7 @@ class alphaShape:  # noqa: N801 - MATLAB's own name
         HoleThreshold: float = 0.0,
         RegionThreshold: float = 0.0,
     ) -> None:
-        self._complex = AlphaComplex(P)
+        self._complex = AlphaComplex(as_cloud(P, 2))
         self._thresholds = HoleThreshold, RegionThreshold
         self._shape: Selection
         self.Alpha = self.criticalAlpha("all-points") if a is None else a
