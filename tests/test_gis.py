@@ -14,6 +14,7 @@ from hypothesis import given
 import alphamesh as am
 from alphamesh.errors import (
     CloudShapeError,
+    FileWriteError,
     GeographicCoordinatesWarning,
     MissingLibraryError,
     NonFiniteError,
@@ -198,7 +199,6 @@ class TestTables:
         ("what", "options", "message"),
         [
             ("region", {}, "no table of 'region'.*'regions'"),
-            ("regions", {"simplfy": 3}, "no option 'simplfy'.*simplify"),
             ("triangles", {"smooth": 1}, "not for triangles"),
             ("regions", {"smooth": 1, "elevation": POINTS[:, 0]}, "no elevation"),
             ("regions", {"elevation": [1, 2]}, r"one for each of the 300 points.*\(2,\)"),
@@ -218,6 +218,20 @@ class TestTables:
         shape = am.AlphaComplex(FRAME).at(20)
         with pytest.raises(ParameterError, match=message):
             shape.to_geopandas(what, **options)
+
+
+def test_an_unknown_option_is_told(tmp_path):
+    shape = am.AlphaComplex(FRAME).at(20)
+    with pytest.raises(ParameterError, match=r"no option 'simplfy'.*simplify"):
+        shape.save_outlines(tmp_path / "a.gpkg", simplfy=3)
+    with pytest.raises(TypeError, match="simplfy"):
+        shape.to_geopandas(simplfy=3)
+
+
+def test_outlines_are_not_taken_for_meshes(tmp_path):
+    shape = am.AlphaComplex(FRAME).at(20)
+    with pytest.raises(FileWriteError, match=r"no mesh format.*save_outlines"):
+        shape.save(tmp_path / "a.geojson")
 
 
 class TestPointTable:

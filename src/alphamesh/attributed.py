@@ -13,6 +13,7 @@ from alphamesh.simplices import SimplexSet
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Mapping
 
     from alphamesh._arrays import CountArray, IntArray
     from alphamesh.regions import Regions
@@ -80,7 +81,17 @@ class AttributedShape(SimplexSet):
         """
         return reduced(as_values(values, len(self.points)), *self._region_points, how)
 
-    def to_geopandas(self, what: str = "regions", **options: Any) -> Any:
+    def to_geopandas(  # noqa: PLR0913 (each option is of use alone)
+        self,
+        what: str = "regions",
+        *,
+        crs: Any = None,
+        data: Any = None,
+        aggregate: Mapping[str, str | list[str]] | None = None,
+        elevation: Any = None,
+        simplify: float = 0.0,
+        smooth: int = 0,
+    ) -> Any:
         """Return the shape as a geopandas.GeoDataFrame, its reference system kept.
 
         Parameters
@@ -123,7 +134,16 @@ class AttributedShape(SimplexSet):
         """
         from alphamesh.gis import shape_frame
 
-        return shape_frame(self, what, **options)
+        return shape_frame(
+            self,
+            what,
+            crs=crs,
+            data=data,
+            aggregate=aggregate,
+            elevation=elevation,
+            simplify=simplify,
+            smooth=smooth,
+        )
 
     def save_outlines(
         self,
