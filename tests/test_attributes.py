@@ -137,8 +137,9 @@ class TestMeshes:
 
     def test_text_is_left_out_and_told(self, tmp_path):
         shape = am.AlphaComplex(EIGHT).at(ALL_TRIANGLES)
-        with pytest.warns(LossyFormatWarning, match="numbers alone: left out 'name'"):
+        with pytest.warns(LossyFormatWarning, match="numbers alone: left out 'name'") as told:
             shape.save(tmp_path / "a.npz", point_data={"name": ["a"] * 200})
+        assert [one.filename for one in told] == [__file__]
         with pytest.warns(LossyFormatWarning, match="STL files hold no numbers of points"):
             shape.save(tmp_path / "a.stl", point_data=DATA)
         with pytest.raises(ParameterError, match="'a' must have one value"):

@@ -220,6 +220,10 @@ class TestLosses:
         text = " ".join(str(one.message) for one in told)
         assert "a_long_name_for_it" in text and "when" in text
         assert all(Path(one.filename) == Path(__file__) for one in told)
+        with pytest.warns(LossyFormatWarning) as told:
+            values = {"a_long_name_for_it": np.zeros(len(FIGURE.points))}
+            FIGURE.save_outlines(tmp_path / "b.shp", "points", data=values)
+        assert all(Path(one.filename) == Path(__file__) for one in told)
 
     def test_mixed_geometries_are_refused_by_shapefiles(self, tmp_path):
         mixed = geopandas.GeoSeries([shapely.Point(0, 0), shapely.box(0, 0, 1, 1)])

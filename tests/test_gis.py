@@ -88,6 +88,14 @@ class TestPointsIn:
                 am.AlphaComplex(points)
             assert caught.value.rows == rows
 
+    def test_plain_tables_with_a_column_of_points(self):
+        plain = FRAME.to_wkb().assign(geometry=FRAME.geometry.to_numpy())
+        assert not hasattr(plain, "crs")
+        assert np.array_equal(am.AlphaComplex(plain).points, POINTS)
+        assert am.alpha_shapes(plain, radius=20).crs is None
+        with pytest.raises(ParameterError, match="needs a GeoDataFrame"):
+            am.write_geo(plain, "never.gpkg")
+
     def test_numbers_among_geometries_are_named(self):
         with pytest.raises(CloudShapeError, match="no geometry but a int in row 1"):
             am.AlphaComplex([shapely.Point(0, 0), 3])

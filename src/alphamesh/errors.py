@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
 
 __all__ = [
@@ -35,6 +36,15 @@ def rows_text(rows: Iterable[int], *, total: int | None = None) -> str:
     if count == 1:
         return f"row {shown}"
     return f"rows {shown}" if count <= _ROWS_SHOWN else f"rows {shown}, ... ({count} in all)"
+
+
+def user_stacklevel() -> int:
+    """Return the `stacklevel` at which a warning shows the line outside of alphamesh."""
+    level, frame = 1, sys._getframe(1)
+    inner = ("alphamesh.", "contextlib")
+    while frame.f_back and frame.f_globals.get("__name__", "").startswith(inner):
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 class AlphameshError(Exception):

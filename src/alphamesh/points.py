@@ -7,7 +7,6 @@ that float64 cannot hold is refused, with its row.
 from __future__ import annotations
 
 import os
-import sys
 import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -22,6 +21,7 @@ from alphamesh.errors import (
     GeographicCoordinatesWarning,
     NonFiniteError,
     rows_text,
+    user_stacklevel,
 )
 from alphamesh.table import PointTable
 
@@ -120,15 +120,12 @@ def warn_of_degrees(cloud: Cloud) -> None:
     """
     if not getattr(cloud.crs, "is_geographic", False):
         return
-    depth, frame = 2, sys._getframe(1)
-    while frame.f_back and frame.f_globals.get("__name__", "").startswith("alphamesh."):
-        depth, frame = depth + 1, frame.f_back
     warnings.warn(
         f"the points are longitudes and latitudes ({cloud.crs.name}): a radius in degrees is "
         "a shorter way east than north, and areas are no areas; project them first: "
         "frame.to_crs(frame.estimate_utm_crs()), or an equal-area system of your country",
         GeographicCoordinatesWarning,
-        stacklevel=depth,
+        stacklevel=user_stacklevel(),
     )
 
 

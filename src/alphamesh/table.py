@@ -108,7 +108,7 @@ def as_columns(columns: Any, count: int) -> Columns:
         columns = columns.columns
     elif hasattr(columns, "columns") and hasattr(columns, "iloc"):
         kept = columns
-        if holds_geometries(columns):
+        if holds_geometries(columns) and hasattr(columns, "crs"):
             kept = columns.drop(columns=columns.geometry.name)
         columns = {str(name): kept.iloc[:, k].to_numpy() for k, name in enumerate(kept.columns)}
     if not isinstance(columns, Mapping):

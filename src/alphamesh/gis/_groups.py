@@ -90,7 +90,8 @@ def alpha_shapes(  # noqa: PLR0913 (each option is of use alone)
     points = _geopoints.point_table(table)
     if not np.isfinite(points).all():
         raise coordinate_error(points)
-    warn_of_degrees(Cloud(points, table.crs))
+    crs = _geopoints.crs_of(table)
+    warn_of_degrees(Cloud(points, crs))
     groups = _groups(table, keys)
     facts, geometries, done = [], [], 0
     for rows in groups:
@@ -108,7 +109,7 @@ def alpha_shapes(  # noqa: PLR0913 (each option is of use alone)
     made = made.reset_index(drop=True)
     for k, name in enumerate(_FACTS):
         made[name] = [fact[k] for fact in facts]
-    return library.GeoDataFrame(made, geometry=geometries, crs=table.crs)
+    return library.GeoDataFrame(made, geometry=geometries, crs=crs)
 
 
 def _checked(frame: Any, keys: list[str]) -> Any:

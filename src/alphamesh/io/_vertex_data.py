@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alphamesh.errors import LossyFormatWarning, ParameterError
+from alphamesh.errors import LossyFormatWarning, ParameterError, user_stacklevel
 from alphamesh.table import as_columns
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def vertex_data(columns: Any, count: int) -> dict[str, Numbers]:
             f"meshes hold numbers alone: left out {', '.join(left_out[:9])}; number the "
             "values, or save a table of points with to_geopandas('points')",
             LossyFormatWarning,
-            stacklevel=4,
+            stacklevel=user_stacklevel(),
         )
     return made
 
@@ -72,5 +72,5 @@ def tell_of_lost_data(path: str | os.PathLike[str], name: str) -> None:
         f"{os.fspath(path)}: {name} files hold no numbers of points: point_data is left out; "
         ".ply and .vtu hold them",
         LossyFormatWarning,
-        stacklevel=3,
+        stacklevel=user_stacklevel(),
     )

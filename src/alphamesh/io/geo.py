@@ -17,6 +17,7 @@ from alphamesh.errors import (
     LossyFormatWarning,
     MissingLibraryError,
     ParameterError,
+    user_stacklevel,
 )
 from alphamesh.io._atomic import atomic_path
 from alphamesh.io._geo_json import write_geojson
@@ -183,7 +184,8 @@ def _as_frame(frame: Any) -> Any:
         frame = frame.to_geopandas()
     if hasattr(frame, "geom_type") and hasattr(frame, "to_frame"):
         frame = frame.to_frame(frame.name or "geometry")
-    if not (hasattr(frame, "columns") and hasattr(frame, "geometry")):
+    # A plain DataFrame with such a column has no reference system, not even None.
+    if not (hasattr(frame, "columns") and hasattr(frame, "geometry") and hasattr(frame, "crs")):
         raise ParameterError(
             "write_geo needs a GeoDataFrame, a GeoSeries or a PointTable, not a "
             f"{type(frame).__name__}; shape.to_geopandas() makes one"
@@ -199,7 +201,8 @@ def _told_losses(shown: str) -> Iterator[None]:
         yield
     for notice in noticed:
         if issubclass(notice.category, RuntimeWarning | UserWarning):
-            warnings.warn(f"{shown}: {notice.message}", LossyFormatWarning, stacklevel=4)
+            told = f"{shown}: {notice.message}"
+            warnings.warn(told, LossyFormatWarning, stacklevel=user_stacklevel())
 
 
 @contextmanager
