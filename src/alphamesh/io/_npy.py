@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from alphamesh._arrays import FloatArray
 
-__all__ = ["read_npy", "read_npz"]
+__all__ = ["read_arrays", "read_npy", "read_npz"]
 
 # Deflate packs a byte into no less than this part of one.
 _BEST_COMPRESSION = 1100
@@ -83,6 +83,34 @@ def read_npz(source: Source, wanted: Wanted, key: str | None) -> FloatArray:
         with archive.open(info) as member:
             array = _array(source, member, info.file_size)
     return _table(source, array, wanted)
+
+
+def read_arrays(source: Source) -> dict[str, NDArray[Any]]:
+    """Return all arrays of an NPZ file by name; that of an NPY file has an empty one.
+
+    Raises
+    ------
+    FileReadError
+        If it is neither, not complete, or holds Python objects.
+    """
+    with source.open() as file:
+        packed = file.read(2) == b"PK"
+    if not packed:
+        with source.open() as file, _translated(source, "NPY"):
+            return {"": _array(source, file, source.size)}
+    with (
+        source.open() as file,
+        _translated(source, "NPZ"),
+        zipfile.ZipFile(file) as archive,
+    ):
+        found = {}
+        for info in archive.infolist():
+            if info.file_size > _BEST_COMPRESSION * source.size:
+                raise source.failure("is damaged: it claims more data than it can hold")
+            with archive.open(info) as member:
+                name = info.filename.removesuffix(".npy")
+                found[name] = _array(source, member, info.file_size)
+        return found
 
 
 def _choose_key(source: Source, keys: list[str], key: str | None) -> str:

@@ -29,6 +29,8 @@ from alphamesh.io._mesh_plain import (
     write_ply,
     write_stl,
 )
+from alphamesh.io._vertex_data import tell_of_lost_data, vertex_data
+from alphamesh.io.geo import GEO_FORMATS
 
 __all__ = [
     "MESH_FORMATS",
@@ -37,6 +39,8 @@ __all__ = [
     "compact",
     "mesh_format",
     "read_mesh",
+    "tell_of_lost_data",
+    "vertex_data",
     "write_mesh",
 ]
 
@@ -278,6 +282,8 @@ def mesh_format(
         return MESH_FORMATS[key]
     what = f"the extension {key!r} is no mesh format" if key else "the name has no extension"
     verb, kind = ("read", FileReadError) if reading else ("write", FileWriteError)
+    if key in GEO_FORMATS:
+        known += "; for outlines in a GIS, " + ("read_geo" if reading else "save_outlines")
     raise kind(f"cannot {verb} '{os.fspath(path)}': {what}; choose one of {known}")
 
 
