@@ -76,7 +76,7 @@ def test_unknown_extensions_are_refused_before_the_work(table):
     assert ".png, .pdf, .svg" in refused(2, "mesh", table, "--plot", "p.bmp")
     assert ".csv, .tsv" in refused(2, "sample", "demo:disc", "-o", "p.xlsx")
     Path("odd.foo").write_text("1,2\n")
-    assert "--format" in refused(1, "mesh", "odd.foo")
+    assert "--from" in refused(1, "mesh", "odd.foo")
 
 
 def test_outputs_must_differ_from_each_other_and_the_input(folder):

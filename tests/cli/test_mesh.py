@@ -85,7 +85,7 @@ def test_mesh_of_chosen_columns(folder):
 
 def test_mesh_of_a_table_whose_format_the_name_hides(table):
     Path(table).rename("points.odd")
-    assert facts("mesh", "points.odd", "--format", "csv")["points"] == 300
+    assert facts("mesh", "points.odd", "--from", "csv")["points"] == 300
 
 
 def test_mesh_of_a_degenerate_cloud(folder):

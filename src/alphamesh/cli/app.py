@@ -12,17 +12,26 @@ from alphamesh.cli.command import write_section
 __all__ = ["app"]
 
 _COMMANDS = {
-    "mesh": "make a mesh from an image or a point file",
+    "mesh": "make meshes from images or files of points",
     "sample": "draw points from a mask image",
     "info": "tell what is in a file of points, an image or a mesh",
     "demo": "write a gallery of demo shapes",
     "plot": "draw a picture of a cloud, its cells or its complex",
     "animate": "make a film of the growing radius",
     "radius": "choose a radius, and say why",
-    "persistence": "tell when components and holes come and go",
-    "voronoi": "find Voronoi cells, whole or cut by discs",
+    "regions": "measure the pieces of a shape, or its holes",
+    "query": "tell which points lie in a shape, and how far off others are",
+    "convert": "turn points or a mesh into another format",
+    "hull": "find the convex hull",
     "delaunay": "triangulate, with a frame around the cloud or without",
+    "voronoi": "find Voronoi cells",
+    "restricted": "find Voronoi cells cut by discs of one radius",
+    "filtration": "list every simplex and the radius at which it comes",
+    "persistence": "tell when components and holes come and go",
+    "betti": "count components and holes at every radius",
+    "measures": "measure the complex at many radii",
     "tiles": "build a complex larger than memory, tile by tile",
+    "completion": "print a script for completion in bash, zsh or fish",
 }
 
 _EXAMPLES = (

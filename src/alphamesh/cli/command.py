@@ -5,8 +5,8 @@ from __future__ import annotations
 import errno
 import re
 import traceback
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
 
 import click
 
@@ -16,11 +16,18 @@ from alphamesh.errors import AlphameshError, ParameterError
 __all__ = [
     "Command",
     "Explained",
+    "explain",
     "json_option",
+    "kept_option",
+    "overwrite_option",
     "quiet_option",
+    "setting",
     "threads_option",
+    "units_option",
     "write_section",
 ]
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 _DEBUG = click.Option(
     ["--debug"], is_flag=True, help="Show where in the program an error arose."
@@ -72,7 +79,7 @@ class Command(click.Command):
             if debug:
                 click.echo(traceback.format_exc(), err=True)
             kind = Misused if isinstance(error, ParameterError) else Explained
-            raise kind(_message(error)) from None
+            raise kind(explain(error)) from None
 
 
 def write_section(formatter: click.HelpFormatter, title: str, lines: Sequence[str]) -> None:
@@ -84,7 +91,7 @@ def write_section(formatter: click.HelpFormatter, title: str, lines: Sequence[st
 
 # Errors are written for Python, where parameters are keywords; here they are options.
 _OPTION_OF = {
-    "file_format": "--format",
+    "file_format": "--from",
     "n": "--points",
     **{name: f"--{name}" for name in ("jitter", "replace", "invert", "threshold", "header")},
     **{name: f"--{name}" for name in ("columns", "delimiter", "decimal", "comment")},
@@ -103,7 +110,8 @@ def _as_option(found: re.Match[str]) -> str:
     return f"{_OPTION_OF[name]} {plain}".rstrip()
 
 
-def _message(error: BaseException) -> str:
+def explain(error: BaseException) -> str:
+    """Return what to tell of an error that is known to happen."""
     if isinstance(error, AlphameshError):
         text = _KEYWORD.sub(_as_option, str(error))
         return _SAMPLE_MASK.sub("alphamesh sample", text)
@@ -112,6 +120,29 @@ def _message(error: BaseException) -> str:
     return f"{type(error).__name__}: {error} (--debug shows where)"
 
 
+def setting(name: str) -> Any:
+    """Return the value of an option made by `kept_option`, None outside of a command."""
+    context = click.get_current_context(silent=True)
+    return None if context is None else context.meta.get(f"alphamesh.{name}")
+
+
+def _keep(ctx: click.Context, param: click.Parameter, value: Any) -> None:
+    ctx.meta[f"alphamesh.{param.name}"] = value
+
+
+def kept_option(*flags: str, **settings: Any) -> Callable[[Function], Function]:
+    """Return an option that no command takes as a parameter: `setting` tells its value."""
+    return click.option(*flags, expose_value=False, callback=_keep, **settings)
+
+
+units_option = kept_option(
+    "--units", metavar="NAME", help="Name the units of lengths in what is told, such as m."
+)
+overwrite_option = kept_option(
+    "--overwrite/--no-overwrite",
+    default=True,
+    help="Replace files that are there already, or stop before the work.  [default: overwrite]",
+)
 json_option = click.option(
     "--json", "as_json", is_flag=True, help="Print one JSON object instead of text."
 )

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from alphamesh.cli.batch import make_folder
 from alphamesh.cli.command import Command, json_option, quiet_option, threads_option
 from alphamesh.cli.gallery import Exhibit, gallery_page
 from alphamesh.cli.outputs import check_targets, write_bytes
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, print_json
 from alphamesh.cli.write_points import write_points
-from alphamesh.errors import FileWriteError, MissingLibraryError, ParameterError
+from alphamesh.errors import MissingLibraryError, ParameterError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -80,7 +81,7 @@ def command(folder: Path, names: tuple[str, ...], **options: Any) -> None:
     import alphamesh.plot  # noqa: F401 - if matplotlib is missing, say so before the work
 
     chosen = _chosen(names)
-    _make(folder)
+    make_folder(folder)
     check_targets([folder / "index.html"])
     exhibits = []
     with Steps(quiet=options["quiet"]) as steps, steps.step("Gallery") as done:
@@ -109,21 +110,6 @@ def _chosen(names: tuple[str, ...]) -> list[str]:
             f"there is no demo shape {unknown[0]!r}; choose among: {', '.join(DEMO_SHAPES)}"
         )
     return list(dict.fromkeys(names or DEMO_SHAPES))
-
-
-def _make(folder: Path) -> None:
-    """Make the folder, though not the folders above it."""
-    try:
-        folder.mkdir(exist_ok=True)
-    except FileNotFoundError as error:
-        raise FileWriteError(
-            f"cannot make the folder {str(folder)!r}: {str(folder.parent)!r} does not exist; "
-            "create it first, or choose another place"
-        ) from error
-    except OSError as error:
-        raise FileWriteError(
-            f"cannot make the folder {str(folder)!r}: {error.strerror}; choose another place"
-        ) from error
 
 
 def _exhibit(

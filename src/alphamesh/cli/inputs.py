@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import zipfile
 from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import PurePath
+from dataclasses import dataclass, replace
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from alphamesh.cli.progress import Steps
+from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted
 from alphamesh.cli.types import ColumnsType
 
@@ -26,14 +28,17 @@ __all__ = [
     "Input",
     "InputOptions",
     "demo_shape",
+    "holds",
     "kind_of",
     "load",
+    "ply_elements",
     "sampling_options",
     "table_options",
 ]
 
 DEMO, IMAGE, MESH, POINTS = "demo", "image", "mesh", "points"
 
+_HEADER_BYTES = 1 << 16
 _DEMO_PREFIX = "demo:"
 _IMAGE_SUFFIXES = frozenset(
     {".avif", ".bmp", ".gif", ".ico", ".jp2", ".jpeg", ".jpg", ".pbm", ".pcx", ".pgm", ".png"}
@@ -68,6 +73,16 @@ class InputOptions:
     encoding: str | None = None
     key: str | None = None
 
+    @property
+    def suffix(self) -> str | None:
+        """The extension that the option --from stands for."""
+        return self.file_format and f".{self.file_format.lower().removeprefix('.')}"
+
+    @staticmethod
+    def table_names() -> tuple[str, ...]:
+        """Return the names of what can be said of a table."""
+        return tuple(_TABLE)
+
     def table(self) -> dict[str, Any]:
         """Return what is said of a table, as keywords of ``read_points``."""
         given = {name: getattr(self, name) for name in _TABLE}
@@ -91,7 +106,7 @@ _SAMPLING = {
 _OF_IMAGES = {name: _SAMPLING[name] for name in ("threshold", "invert")}
 _TABLE = {
     "columns": "--columns",
-    "file_format": "--format",
+    "file_format": "--from",
     "delimiter": "--delimiter",
     "decimal": "--decimal",
     "header": "--header/--no-header",
@@ -100,6 +115,7 @@ _TABLE = {
     "encoding": "--encoding",
     "key": "--key",
 }
+_OF_TABLES = {name: option for name, option in _TABLE.items() if name != "file_format"}
 
 
 _SAMPLING_OPTIONS: dict[str, dict[str, Any]] = {
@@ -139,8 +155,9 @@ _TABLE_OPTIONS: dict[str, dict[str, Any]] = {
         "help": "Table: columns by name or by number from 0.  [default: x,y]",
     },
     "file_format": {
-        "metavar": "NAME",
-        "help": "Table: its format, such as csv.  [default: the extension's]",
+        "metavar": "FORMAT",
+        "help": "Format of INPUT, such as csv.  [default: the extension's; of standard "
+        "input: found]",
     },
     "delimiter": {
         "metavar": "CHAR",
@@ -190,14 +207,50 @@ def _with_options(command: Function, options: dict[str, dict[str, Any]]) -> Func
     return command
 
 
-def kind_of(source: str) -> str:
+def kind_of(source: str, file_format: str | None = None) -> str:
     """Return what `source` is by its name: "demo", "image", "mesh" or "points"."""
     if source.startswith(_DEMO_PREFIX):
         return DEMO
     suffix = PurePath(source).suffix.lower()
+    if file_format is not None:
+        suffix = f".{file_format.lower().removeprefix('.')}"
     if suffix in _IMAGE_SUFFIXES:
         return IMAGE
     return MESH if suffix in _MESH_SUFFIXES else POINTS
+
+
+def holds(source: str, file_format: str | None = None) -> str:
+    """Return what is in a file, "mesh" or "points" also where its format can hold both."""
+    kind = kind_of(source, file_format)
+    suffix = PurePath(source).suffix.lower()
+    if kind != POINTS or file_format is not None or not Path(source).is_file():
+        return kind
+    if suffix == ".npz":
+        return MESH if _is_mesh_archive(source) else POINTS
+    if suffix == ".ply":
+        elements = ply_elements(source)
+        return MESH if elements.get("face", 0) or elements.get("edge", 0) else POINTS
+    return kind
+
+
+def ply_elements(source: str) -> dict[str, int]:
+    """Return the count of each element that the header of a PLY file tells."""
+    with Path(source).open("rb") as file:
+        words = file.read(_HEADER_BYTES).partition(b"end_header")[0].split()
+    return {
+        name.decode(errors="replace"): int(count)
+        for word, name, count in zip(words, words[1:], words[2:], strict=False)
+        if word == b"element" and count.isdigit()
+    }
+
+
+def _is_mesh_archive(source: str) -> bool:
+    """Return whether an NPZ file holds a mesh, not just points."""
+    try:
+        with zipfile.ZipFile(source) as archive:
+            return "triangles.npy" in archive.namelist()
+    except zipfile.BadZipFile:
+        return False  # whoever reads it next explains
 
 
 def load(source: str, options: InputOptions, steps: Steps) -> Input:
@@ -210,31 +263,39 @@ def load(source: str, options: InputOptions, steps: Steps) -> Input:
     AlphameshError
         If it cannot be read.
     """
-    kind = kind_of(source)
+    if source != STDIN:
+        return _load(source, source, options, steps)
+    with from_standard_input(options.suffix) as path:
+        read = _load(str(path), "standard input", options, steps)
+    return replace(read, facts={**read.facts, "name": STDIN})
+
+
+def _load(source: str, name: str, options: InputOptions, steps: Steps) -> Input:
+    """Return the cloud in a file called `name`."""
+    kind = kind_of(source, options.file_format)
     if kind == MESH:
         raise click.UsageError(
-            f"{source!r} is a mesh file already; give an image or points "
+            f"{name!r} is a mesh file already; give an image or points "
             f"(alphamesh info {source} tells what is in it)"
         )
     if kind == POINTS:
-        options.refuse(_SAMPLING, source, "which is a table: its points are taken as they are")
-        return _load_table(source, options, steps)
-    options.refuse(_TABLE, source, "which is no table")
+        options.refuse(_SAMPLING, name, "which is a table: its points are taken as they are")
+        return _load_table(source, name, options, steps)
+    options.refuse(_OF_TABLES, name, "which is no table")
     if kind == DEMO:
-        options.refuse(_OF_IMAGES, source, "a demo shape, which has no shades")
-    return _load_pixels(source, options, steps)
+        options.refuse(_OF_IMAGES, name, "a demo shape, which has no shades")
+    return _load_pixels(source, name, options, steps)
 
 
-def _load_table(source: str, options: InputOptions, steps: Steps) -> Input:
+def _load_table(source: str, name: str, options: InputOptions, steps: Steps) -> Input:
     from alphamesh.io.points import read_points
 
-    name = "standard input" if source == "-" else source
     with steps.step(f"Reading {name}"):
         points = read_points(source, **options.table())
     return Input(points, f"{name} (points)", {"kind": POINTS, "name": source})
 
 
-def _load_pixels(source: str, options: InputOptions, steps: Steps) -> Input:
+def _load_pixels(source: str, name: str, options: InputOptions, steps: Steps) -> Input:
     """Draw points from an image or a demo shape."""
     from alphamesh.io.images import read_mask
     from alphamesh.sampling import demo_mask, sample_pixels
@@ -242,8 +303,8 @@ def _load_pixels(source: str, options: InputOptions, steps: Steps) -> Input:
     count = _DEFAULT_COUNT if options.count is None else options.count
     threshold = _DEFAULT_THRESHOLD if options.threshold is None else options.threshold
     seed = _DEFAULT_SEED if options.seed is None else options.seed
-    kind = kind_of(source)
-    with steps.step(f"Drawing {counted(count, 'point')} from {source}"):
+    kind = kind_of(source, options.file_format)
+    with steps.step(f"Drawing {counted(count, 'point')} from {name}"):
         if kind == DEMO:
             mask = demo_mask(demo_shape(source).name)
         else:
@@ -260,7 +321,7 @@ def _load_pixels(source: str, options: InputOptions, steps: Steps) -> Input:
     noun = "demo shape" if kind == DEMO else "image"
     return Input(
         points,
-        f"{source} ({noun}, {width} x {height}, {counted(inside, 'pixel')} inside)",
+        f"{name} ({noun}, {width} x {height}, {counted(inside, 'pixel')} inside)",
         {
             "kind": kind,
             "name": source,

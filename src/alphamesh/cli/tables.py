@@ -1,4 +1,4 @@
-"""Results into tables, whole or not at all: CSV for people, NPZ for programs."""
+"""Results into tables, whole or not at all: CSV for people, Parquet and NPZ for programs."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ _LINES = 50_000
 
 
 def write_table(path: Path, columns: Columns, arrays: Columns | None = None) -> None:
-    """Write a table to a ``.csv``, ``.tsv`` or ``.npz`` file.
+    """Write a table to a ``.csv``, ``.tsv``, ``.parquet`` or ``.npz`` file.
 
     Parameters
     ----------
     path : Path
     columns : mapping of str to (m,) array
-        The columns of the text formats; numbers are written so that nothing is lost.
+        Of all formats but NPZ; numbers are written so that nothing is lost.
     arrays : mapping of str to array, optional
         What an NPZ file holds instead.
 
@@ -35,9 +35,16 @@ def write_table(path: Path, columns: Columns, arrays: Columns | None = None) -> 
     ------
     FileWriteError
         If it cannot be written; nothing is left behind.
+    MissingLibraryError
+        For Parquet, if pyarrow is not installed.
     """
     with atomic_path(path) as temporary, temporary.open("wb") as file:
         suffix = path.suffix.lower()
+        if suffix == ".parquet":
+            from alphamesh.io._parquet import write_parquet
+
+            write_parquet(columns, file)
+            return
         if suffix == ".npz":
             named: dict[str, Any] = dict(columns if arrays is None else arrays)
             np.savez(file, **named)
@@ -49,5 +56,12 @@ def write_table(path: Path, columns: Columns, arrays: Columns | None = None) -> 
             rows = zip(
                 *(column[start : start + _LINES].tolist() for column in values), strict=True
             )
-            lines = (delimiter.join(map(repr, row)) + "\n" for row in rows)
+            lines = (delimiter.join(map(_cell, row)) + "\n" for row in rows)
             file.write("".join(lines).encode())
+
+
+def _cell(value: object) -> str:
+    """Return a number so that it reads back the same, truth as 1 or 0, text as it is."""
+    if isinstance(value, bool):
+        return str(int(value))
+    return value if isinstance(value, str) else repr(value)

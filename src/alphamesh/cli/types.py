@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
+from click.shell_completion import CompletionItem
 
 if TYPE_CHECKING:
     ParamType = click.ParamType[Any]
@@ -14,15 +15,22 @@ else:
 
 __all__ = [
     "AUTO",
+    "RULE_OPTIONS",
     "STREAM",
     "BettiType",
     "ColumnsType",
+    "ConvertedFile",
     "FigureFile",
+    "File",
     "FilmFile",
+    "FormatType",
     "MeshFile",
     "PointsFile",
     "RadiiType",
     "RadiusType",
+    "Rule",
+    "RuleName",
+    "SourceType",
     "TableFile",
 ]
 
@@ -32,21 +40,49 @@ AUTO = "auto"
 STREAM = Path("-")
 
 
+class SourceType(ParamType):
+    """An input: a file, ``-``, or a demo shape."""
+
+    name = "input"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> str:
+        """Return it as it is; what it stands for is found out when it is read."""
+        return str(value)
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Let the shell look for files."""
+        return [CompletionItem(incomplete, type="file")]
+
+
+class Rule(NamedTuple):
+    """A rule that chooses a radius, and its options."""
+
+    name: str
+    options: dict[str, Any]
+
+
 class RadiusType(ParamType):
-    """A radius: a number of at least 0, ``auto``, or the name of a rule."""
+    """A radius: a number of at least 0, ``auto``, or a rule, as in ``topology:holes=2``."""
 
     name = "radius"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> float | str:
-        """Return a number, or the name of a rule."""
+    ) -> float | Rule:
+        """Return a number, or a rule."""
         from alphamesh.radius import DEFAULT_RULE, rule_names
 
-        if value == AUTO:
-            return DEFAULT_RULE
-        if value in rule_names():
-            return str(value)
+        if isinstance(value, Rule | float):
+            return value
+        name, *options = str(value).split(":")
+        if name == AUTO:
+            name = DEFAULT_RULE
+        if name in rule_names():
+            return Rule(name, dict(self._option(text, param, ctx) for text in options))
         try:
             radius = float(value)
         except ValueError:
@@ -57,6 +93,58 @@ class RadiusType(ParamType):
         if not radius >= 0:
             self.fail(f"{value!r} is not a number of at least 0", param, ctx)
         return radius
+
+    def _option(
+        self, text: str, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, Any]:
+        """Return an option of a rule, as in ``holes=2``."""
+        name, equals, value = text.partition("=")
+        name = name.strip().replace("-", "_")
+        if not equals or name not in RULE_OPTIONS:
+            self.fail(
+                f"{text!r} is no option of a rule; they are written as in topology:holes=2, "
+                f"and there are {', '.join(RULE_OPTIONS)}",
+                param,
+                ctx,
+            )
+        return name, RULE_OPTIONS[name].convert(value, param, ctx)
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Return the rules that begin so."""
+        return _rules_from(incomplete)
+
+
+class RuleName(ParamType):
+    """The name of a rule, whose options are options of the command."""
+
+    name = "rule"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> str:
+        """Return the name of a rule that there is."""
+        from alphamesh.radius import DEFAULT_RULE, rule_names
+
+        if value == AUTO:
+            return DEFAULT_RULE
+        if value not in rule_names():
+            listed = ", ".join((AUTO, *rule_names()))
+            self.fail(f"there is no radius rule {value!r}; rules: {listed}", param, ctx)
+        return str(value)
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Return the rules that begin so."""
+        return _rules_from(incomplete)
+
+
+def _rules_from(start: str) -> list[CompletionItem]:
+    from alphamesh.radius import rule_names
+
+    return [CompletionItem(name) for name in (AUTO, *rule_names()) if name.startswith(start)]
 
 
 class RadiiType(ParamType):
@@ -103,6 +191,17 @@ class BettiType(ParamType):
         return int(parts[0]), int(parts[1])
 
 
+RULE_OPTIONS: dict[str, ParamType] = {
+    "betti": BettiType(),
+    "components": click.IntRange(1),
+    "holes": click.IntRange(0),
+    "min_hole": click.FloatRange(0),
+    "regions": click.IntRange(1),
+    "triangles": click.IntRange(1),
+}
+"""Options of rules; what a rule does not know, it refuses by itself."""
+
+
 class ColumnsType(ParamType):
     """Two columns, ``x,y``, by name or by number counted from 0."""
 
@@ -121,11 +220,20 @@ class ColumnsType(ParamType):
         return first, second
 
 
-class _File(ParamType):
-    """A file to write, in a format that its extension tells."""
+class File(ParamType):
+    """A file to write, in a format that its extension tells.
+
+    Parameters
+    ----------
+    stream : str, optional
+        The format in which ``-`` is standard output; None if that is no such file.
+    """
 
     name = "file"
     what = "file"
+
+    def __init__(self, stream: str | None = None) -> None:
+        self.stream = stream
 
     def formats(self) -> tuple[str, ...]:
         """Return the extensions that are known, each with its dot."""
@@ -134,8 +242,10 @@ class _File(ParamType):
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> Path:
-        """Return the path if its extension is known."""
+        """Return the path if its extension is known, or ``-`` for standard output."""
         path = Path(value)
+        if self.stream is not None and path == STREAM:
+            return STREAM
         known = self.formats()
         if path.suffix.lower() not in known:
             named = f"the extension {path.suffix!r}" if path.suffix else "no extension"
@@ -146,8 +256,14 @@ class _File(ParamType):
             )
         return path
 
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Let the shell look for files."""
+        return [CompletionItem(incomplete, type="file")]
 
-class MeshFile(_File):
+
+class MeshFile(File):
     """A mesh file to write."""
 
     what = "mesh file"
@@ -159,7 +275,7 @@ class MeshFile(_File):
         return tuple(MESH_FORMATS)
 
 
-class FigureFile(_File):
+class FigureFile(File):
     """A picture to write."""
 
     what = "picture"
@@ -169,7 +285,7 @@ class FigureFile(_File):
         return (".png", ".pdf", ".svg")
 
 
-class FilmFile(_File):
+class FilmFile(File):
     """A film to write."""
 
     what = "film"
@@ -181,17 +297,17 @@ class FilmFile(_File):
         return FILM_FORMATS
 
 
-class TableFile(_File):
+class TableFile(File):
     """A table of results to write."""
 
     what = "table"
 
     def formats(self) -> tuple[str, ...]:
         """Return the extensions of tables."""
-        return (".csv", ".tsv", ".npz")
+        return (".csv", ".tsv", ".npz", ".parquet")
 
 
-class PointsFile(_File):
+class PointsFile(File):
     """A file of points to write; ``-`` is standard output."""
 
     what = "file of points"
@@ -202,8 +318,39 @@ class PointsFile(_File):
 
         return tuple(POINT_WRITERS)
 
+
+class ConvertedFile(File):
+    """A file of points or a mesh to write."""
+
+    what = "file of points or mesh"
+
+    def formats(self) -> tuple[str, ...]:
+        """Return the extensions of both."""
+        return tuple(dict.fromkeys(PointsFile().formats() + MeshFile().formats()))
+
+
+class FormatType(ParamType):
+    """The name of a format in which files of one kind are written."""
+
+    name = "format"
+
+    def __init__(self, kind: File) -> None:
+        self.kind = kind
+
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Path:
-        """Return the path if its extension is known, or ``-``."""
-        return STREAM if value == "-" else super().convert(value, param, ctx)
+    ) -> str:
+        """Return the extension, with its dot."""
+        suffix = "." + str(value).lower().removeprefix(".")
+        known = self.kind.formats()
+        if suffix not in known:
+            listed = ", ".join(name.removeprefix(".") for name in known)
+            self.fail(f"{value!r} is no format of a {self.kind.what}; formats: {listed}")
+        return suffix
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Return the formats that begin so."""
+        names = (name.removeprefix(".") for name in self.kind.formats())
+        return [CompletionItem(name) for name in names if name.startswith(incomplete)]
