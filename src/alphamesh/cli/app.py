@@ -19,6 +19,7 @@ _COMMANDS = {
     "plot": "draw a picture of a cloud, its cells or its complex",
     "animate": "make a film of the growing radius",
     "radius": "choose a radius, and say why",
+    "polygons": "write the outlines of shapes, holes and all",
     "regions": "measure the pieces of a shape, or its holes",
     "query": "tell which points lie in a shape, and how far off others are",
     "convert": "turn points or a mesh into another format",

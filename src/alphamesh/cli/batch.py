@@ -203,11 +203,17 @@ def _cell(value: Any) -> str:
     return number(value) if isinstance(value, float) else f"{value:,}"
 
 
+def _failure(outcome: Outcome) -> str:
+    """Return what went wrong, with the name of the input."""
+    source, said = outcome.task.source, str(outcome.error)
+    return said if source in said else f"{source}: {said}"
+
+
 def _raise_failures(outcomes: Sequence[Outcome], count: int) -> None:
     failed = [outcome for outcome in outcomes if outcome.error is not None]
     if not failed:
         return
-    text = "\n".join(f"{outcome.task.source}: {outcome.error}" for outcome in failed)
+    text = "\n".join(_failure(outcome) for outcome in failed)
     left = count - len(outcomes)
     if left:
         text += f"\n({counted(left, 'file')} not begun; --keep-going goes on after a failure)"

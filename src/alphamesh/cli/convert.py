@@ -108,7 +108,8 @@ def _tell(source: str, facts: dict[str, Any], outputs: Outputs, *, as_json: bool
         held = counted(facts["points"], "point")
         if facts["kind"] == MESH:
             held += f", {counted(facts['cells'], 'cell')}"
-        print_lines({"Input": source, "Holds": held, "Written": f"{path}  ({size_text(size)})"})
+        name = "standard input" if source == STDIN else source
+        print_lines({"Input": name, "Holds": held, "Written": f"{path}  ({size_text(size)})"})
     outputs.raise_failures()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import struct
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -37,9 +38,13 @@ _SIGNATURES = (
     (b"$MeshFormat", ".msh"),
     (b"OFF", ".off"),
     (b"solid ", ".stl"),
+    (b"v ", ".obj"),
     (b"{", ".geojson"),
 )
 _LONGEST = 64
+
+# Bytes of a binary STL file before its triangles, and of each triangle.
+_STL_HEAD, _STL_TRIANGLE = 84, 50
 
 # Formats that may be shown on a terminal.
 _TEXT = frozenset({".csv", ".tsv", ".txt", ".xyz", ".obj", ".off", ".geojson", ".wkt", ".json"})
@@ -80,6 +85,8 @@ def from_standard_input(suffix: str | None = None) -> Iterator[Path]:
         with path.open("wb") as file:
             file.write(head)
             shutil.copyfileobj(source, file)
+        if suffix is None and _is_stl(path):
+            path = path.rename(path.with_suffix(".stl"))
         try:
             yield path
         except FileReadError as error:
@@ -87,6 +94,16 @@ def from_standard_input(suffix: str | None = None) -> Iterator[Path]:
             raise FileReadError(
                 said.replace(str(path), "standard input"), rows=error.rows
             ) from error
+
+
+def _is_stl(path: Path) -> bool:
+    """Return whether a file is as long as the count in it makes a binary STL file."""
+    with path.open("rb") as file:
+        head = file.read(_STL_HEAD)
+    if len(head) < _STL_HEAD:
+        return False
+    (count,) = struct.unpack("<I", head[80:])
+    return path.stat().st_size == _STL_HEAD + _STL_TRIANGLE * int(count)
 
 
 def to_standard_output(write: Callable[[Path], None], suffix: str) -> None:
