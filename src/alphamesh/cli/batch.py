@@ -194,7 +194,7 @@ def _print_summary(
         if outcome.error is None
     ]
     if rows:
-        print_table(["input", *columns, "written", "size"], rows)
+        print_table(["input", *columns, "written", "size"], rows, words=["input", "written"])
     if kept:
         click.echo(f"{counted(len(kept), 'file')} left as they were (--no-overwrite)")
 

@@ -50,6 +50,19 @@ class Misused(Explained):
     exit_code = 2
 
 
+# The sections of a help text, and the parameters in each that are not of the command alone.
+_SECTIONS: dict[str, tuple[str, ...]] = {
+    "Many files": ("folder", "jobs", "keep_going"),
+    "Points from images": ("count", "threshold", "invert", "seed", "jitter", "replace"),
+    "Files of points": (
+        *("columns", "file_format", "delimiter", "decimal", "header"),
+        *("skip", "comment", "encoding", "key"),
+    ),
+    "General": ("threads", "overwrite", "units", "as_json", "quiet", "debug"),
+}
+_SECTION_OF = {name: title for title, names in _SECTIONS.items() for name in names}
+
+
 class Command(click.Command):
     """A command whose expected errors end in a message and an exit code.
 
@@ -60,6 +73,24 @@ class Command(click.Command):
         super().__init__(*args, **kwargs)
         self.params.append(_DEBUG)
         self.examples = examples
+
+    def sections(self, ctx: click.Context) -> dict[str, list[tuple[str, str]]]:
+        """Return the options in sections: how each is written, and what it does."""
+        found: dict[str, list[tuple[str, str]]] = {"Options": []}
+        found.update({title: [] for title in _SECTIONS})
+        options = [param for param in self.get_params(ctx) if isinstance(param, click.Option)]
+        for option in options:
+            record = option.get_help_record(ctx)
+            if record is not None:
+                section = "General" if option.is_eager else _SECTION_OF.get(option.name or "")
+                found[section or "Options"].append(record)
+        return {title: records for title, records in found.items() if records}
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the options, those of the command itself first."""
+        for title, records in self.sections(ctx).items():
+            with formatter.section(title):
+                formatter.write_dl(records)
 
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """End the help with the examples."""

@@ -12,6 +12,7 @@ import click
 from alphamesh.cli.batch import make_folder
 from alphamesh.cli.command import Command, json_option, quiet_option, threads_option
 from alphamesh.cli.gallery import Exhibit, gallery_page
+from alphamesh.cli.inputs import seed_option
 from alphamesh.cli.outputs import check_targets, write_bytes
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, print_json
@@ -59,14 +60,15 @@ _EXAMPLES = (
 @click.option(
     "-n",
     "--points",
-    "count",
+    "each",
     type=click.IntRange(min=1),
+    metavar="N",
     default=2000,
     show_default=True,
     help="How many points to draw from each shape.",
 )
 @click.option("--quick", is_flag=True, help="Make no films, which take longest.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
+@seed_option
 @threads_option
 @json_option
 @quiet_option
@@ -119,7 +121,7 @@ def _exhibit(
     from alphamesh.complex import AlphaComplex
     from alphamesh.sampling import DEMO_SHAPES, demo_cloud, demo_mask
 
-    points = demo_cloud(name, options["count"], seed=options["seed"])
+    points = demo_cloud(name, options["each"], seed=options["seed"] or 0)
     built = AlphaComplex(points, threads=options["threads"])
     choice = built.choose_radius()
     shape = built.at(choice.radius)

@@ -33,6 +33,7 @@ __all__ = [
     "load",
     "ply_elements",
     "sampling_options",
+    "seed_option",
     "table_options",
 ]
 
@@ -186,6 +187,11 @@ class Input:
     points: NDArray[np.float64]
     text: str
     facts: dict[str, Any]
+
+
+def seed_option(command: Function) -> Function:
+    """Add --seed alone."""
+    return _with_options(command, {"seed": _SAMPLING_OPTIONS["seed"]})
 
 
 def sampling_options(command: Function) -> Function:

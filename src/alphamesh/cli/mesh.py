@@ -44,7 +44,7 @@ _EXAMPLES = (
 
 @click.command("mesh", cls=Command, examples=_EXAMPLES)
 @click.argument("sources", metavar="INPUT...", nargs=-1, required=True, type=SourceType())
-@output_options(MeshFile(_STREAM), "Write the mesh here", name="meshes")
+@output_options(MeshFile(_STREAM), "Write the mesh here", name="meshes", many=True)
 @batch_options
 @radius_option
 @plot_option("Draw cloud, Delaunay triangulation and complex side by side.")

@@ -23,7 +23,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def output_options(
-    kind: File, what: str, *, name: str = "files", required: bool = False
+    kind: File, what: str, *, name: str = "files", required: bool = False, many: bool = False
 ) -> Callable[[Function], Function]:
     """Return a decorator that adds -o, for files of one kind, and --to.
 
@@ -36,7 +36,12 @@ def output_options(
     name : str
         The parameter of the command: a tuple of paths.
     required : bool
+    many : bool
+        Whether --to also tells the format of the files of a batch.
     """
+    listed = ", ".join(kind.formats())
+    usual = (kind.stream or "").removeprefix(".")
+    place = "on standard output, and in --output-dir" if many else "on standard output"
 
     def keep(ctx: click.Context, param: click.Parameter, value: str | None) -> None:
         ctx.meta["alphamesh.to"] = value
@@ -50,7 +55,7 @@ def output_options(
             metavar="FORMAT",
             expose_value=False,
             callback=keep,
-            help=f"Format on standard output.  [default: {(kind.stream or '').lstrip('.')}]",
+            help=f"Format {place}.  [default: {usual}]",
         )
         output = click.option(
             *("-o", "--output", name),
@@ -58,8 +63,7 @@ def output_options(
             metavar="FILE",
             multiple=True,
             required=required,
-            help=f'{what}; the extension tells the format, "-" is standard output. Can be '
-            "given several times.",
+            help=f'{what}: {listed}; "-" is standard output. Can be given several times.',
         )
         return output(to(command))
 

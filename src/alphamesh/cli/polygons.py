@@ -38,7 +38,7 @@ _EXAMPLES = (
 
 @click.command("polygons", cls=Command, examples=_EXAMPLES)
 @click.argument("sources", metavar="INPUT...", nargs=-1, required=True, type=SourceType())
-@output_options(FeatureFile(_STREAM), "Write the polygons here")
+@output_options(FeatureFile(_STREAM), "Write the polygons here", many=True)
 @batch_options
 @click.option(
     "--as",

@@ -54,15 +54,17 @@ def print_lines(lines: Mapping[str, str]) -> None:
         click.echo(f"{head} {wrapped[len(indent) :]}")
 
 
-def print_table(names: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print aligned columns, the first to the left and all others to the right."""
+def print_table(
+    names: Sequence[str], rows: Sequence[Sequence[str]], *, words: Sequence[str] = ()
+) -> None:
+    """Print aligned columns: words to the left, all others, numbers, to the right."""
     widths = [max(map(len, column)) for column in zip(names, *rows, strict=True)]
     for number_, row in enumerate([names, *rows]):
-        first, *rest = (
-            cell.ljust(width) if k == 0 else cell.rjust(width)
-            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
+        cells = (
+            cell.ljust(width) if name in words else cell.rjust(width)
+            for name, cell, width in zip(names, row, widths, strict=True)
         )
-        line = "  ".join([first, *rest]).rstrip()
+        line = "  ".join(cells).rstrip()
         click.echo(click.style(line, dim=True) if number_ == 0 else line)
 
 
