@@ -17,7 +17,7 @@ from alphamesh.cli.command import (
     overwrite_option,
     quiet_option,
 )
-from alphamesh.cli.inputs import MESH, POINTS, InputOptions, holds, ply_elements, table_options
+from alphamesh.cli.inputs import MESH, POINTS, InputOptions, holds, table_options
 from alphamesh.cli.outputs import Output, Outputs, check_targets
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN, from_standard_input
@@ -203,13 +203,10 @@ def _lost_numbers(mesh: Mesh, path: Path) -> list[str]:
 
 def _unread(source: str) -> list[str]:
     """Say which cells of a mesh file its reader passes over."""
-    suffix = PurePath(source).suffix.lower()
-    count = 0
-    if suffix == ".ply":
-        count = ply_elements(source).get("edge", 0)
-    elif suffix == ".obj":
-        with Path(source).open("rb") as file:
-            count = sum(line[:2] in {b"l ", b"p "} for line in file)
+    if PurePath(source).suffix.lower() != ".obj":
+        return []
+    with Path(source).open("rb") as file:
+        count = sum(line[:2] in {b"l ", b"p "} for line in file)
     if count == 0:
         return []
     return [
