@@ -23,12 +23,22 @@ INTRODUCTION = """Made from the commands themselves by `python docs/make_command
 COMMON = ("Many files", "Points from images", "Files of points", "General")
 
 
-def commands():
-    """Return each command, and a context in which it tells of itself."""
-    top = click.Context(app, info_name="alphamesh", **app.context_settings)
-    for name in app.list_commands(top):
-        command = app.get_command(top, name)
-        yield command, click.Context(command, parent=top, info_name=name)
+def commands(group=app, parent=None, before=""):
+    """Yield name, command and a context of each, those of groups such as tiles one by one."""
+    settings = {} if parent else app.context_settings
+    context = click.Context(group, parent=parent, info_name=before or "alphamesh", **settings)
+    for name in group.list_commands(context):
+        command = group.get_command(context, name)
+        whole = f"{before} {name}".strip()
+        if isinstance(command, click.Group):
+            yield from commands(command, context, whole)
+        else:
+            yield whole, command, click.Context(command, parent=context, info_name=name)
+
+
+def brief(name, command):
+    """Return what a command does in a few words."""
+    return COMMANDS.get(name) or paragraphs(command.help)[0].rstrip(".")
 
 
 def paragraphs(text):
@@ -37,8 +47,8 @@ def paragraphs(text):
     return [" ".join(part.split()) for part in parts]
 
 
-def usage(command, context):
-    return " ".join(["alphamesh", context.info_name, *command.collect_usage_pieces(context)])
+def usage(name, command, context):
+    return " ".join(["alphamesh", name, *command.collect_usage_pieces(context)])
 
 
 # ---------------------------------------------------------------------- the page
@@ -61,10 +71,10 @@ def page():
     """Return the reference as Markdown."""
     common = {title: {} for title in COMMON}
     entries, links = [], []
-    for command, context in commands():
-        name = context.info_name
+    for name, command, context in commands():
         short, *rest = paragraphs(command.help)
-        links.append(f"| [`{name}`](#alphamesh-{name}) | {marked(COMMANDS[name])} |")
+        anchor = f"alphamesh-{name.replace(' ', '-')}"
+        links.append(f"| [`{name}`](#{anchor}) | {marked(brief(name, command))} |")
         sections = command.sections(context)
         for title in COMMON:
             for names, told in sections.get(title, ()):
@@ -73,14 +83,15 @@ def page():
             f"## alphamesh {name}",
             marked(short),
             *map(marked, rest),
-            f"```text\n{usage(command, context)}\n```",
+            f"```text\n{usage(name, command, context)}\n```",
         ]
         if "Options" in sections:
             parts.append(options_table(sections["Options"]))
         also = [title for title in COMMON if title in sections]
         shared = ", ".join(f"[{title}](#{title.lower().replace(' ', '-')})" for title in also)
         parts.append(f"Also: {shared}.")
-        parts.append("```text\n" + "\n".join(command.examples) + "\n```")
+        if command.examples:
+            parts.append("```text\n" + "\n".join(command.examples) + "\n```")
         entries.append("\n\n".join(parts))
     shared = [
         f"### {title}\n\n{options_table(records.items())}" for title, records in common.items()
@@ -132,18 +143,22 @@ def defined(term, told):
     return [".TP", f"\\fB{troff(term)}\\fR", troff(" ".join(told.split()))]
 
 
-def manual(command, context):
+def page_name(name):
+    return f"alphamesh-{name.replace(' ', '-')}"
+
+
+def manual(name, command, context):
     """Return the manual page of a command."""
-    name = f"alphamesh-{context.info_name}"
-    lines = head(name, COMMANDS[context.info_name])
-    lines += [".SH SYNOPSIS", troff(usage(command, context)), ".SH DESCRIPTION"]
+    lines = head(page_name(name), brief(name, command))
+    lines += [".SH SYNOPSIS", troff(usage(name, command, context)), ".SH DESCRIPTION"]
     for text in paragraphs(command.help):
         lines += [".PP", troff(text)]
     for title, records in command.sections(context).items():
         lines.append(f".SH {troff(title.upper())}")
         for names, told in records:
             lines += defined(names, told)
-    lines += [".SH EXAMPLES", *listing(command.examples)]
+    if command.examples:
+        lines += [".SH EXAMPLES", *listing(command.examples)]
     lines += [".SH SEE ALSO", "\\fBalphamesh\\fR(1)"]
     return "\n".join(lines) + "\n"
 
@@ -154,8 +169,8 @@ def manual_of_all():
     lines += [".SH SYNOPSIS", troff("alphamesh COMMAND [OPTIONS] ..."), ".SH DESCRIPTION"]
     lines += [troff(text) for text in paragraphs(app.help)]
     lines.append(".SH COMMANDS")
-    for _, context in commands():
-        lines += defined(f"alphamesh-{context.info_name}(1)", COMMANDS[context.info_name])
+    for name, command, _ in commands():
+        lines += defined(f"{page_name(name)}(1)", brief(name, command))
     lines.append(".SH EXIT STATUS")
     for code in EXIT_CODES:
         number, told = code.split(maxsplit=1)
@@ -167,9 +182,9 @@ def manual_of_all():
 def write_manuals(folder):
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "alphamesh.1").write_text(manual_of_all(), encoding="utf-8")
-    for command, context in commands():
-        path = folder / f"alphamesh-{context.info_name}.1"
-        path.write_text(manual(command, context), encoding="utf-8")
+    for name, command, context in commands():
+        path = folder / f"{page_name(name)}.1"
+        path.write_text(manual(name, command, context), encoding="utf-8")
 
 
 def main(arguments):

@@ -72,7 +72,10 @@ def test_every_command_has_a_manual_page(tmp_path):
     made = script("make_commands")
     made.write_manuals(tmp_path / "man")
     names = {path.name for path in (tmp_path / "man").iterdir()}
-    assert names == {"alphamesh.1", *(f"alphamesh-{name}.1" for name in made.COMMANDS)}
+    commands = {name for name, _, _ in made.commands()}
+    assert {name.split()[0] for name in commands} == set(made.COMMANDS)
+    pages = {f"alphamesh-{name.replace(' ', '-')}.1" for name in commands}
+    assert names == {"alphamesh.1", *pages}
     page = (tmp_path / "man" / "alphamesh-mesh.1").read_text("utf-8")
     for part in (".TH", ".SH NAME", ".SH SYNOPSIS", ".SH EXAMPLES", "\\-\\-output\\-dir"):
         assert part in page

@@ -27,6 +27,8 @@ COMMANDS = tuple(app.list_commands(None))
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_has_examples_that_parse(command):
+    if isinstance(app.get_command(None, command), click.Group):
+        pytest.skip("a group of commands")
     text = ok(command, "--help")
     lines = text.partition("Examples:\n")[2].splitlines()
     examples = [line.strip() for line in lines if line.strip()]
