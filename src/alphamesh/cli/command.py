@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 import click
 
-from alphamesh.cli import INTERRUPTED
+from alphamesh.cli import INTERRUPTED, NOTHING_LEFT
 from alphamesh.errors import AlphameshError, ParameterError
 
 __all__ = [
@@ -102,7 +102,7 @@ class Command(click.Command):
         try:
             return super().invoke(ctx)
         except KeyboardInterrupt:
-            click.echo("Interrupted; no half-written file is left.", err=True)
+            click.echo(NOTHING_LEFT, err=True)
             raise click.exceptions.Exit(INTERRUPTED) from None
         except (AlphameshError, ImportError, MemoryError, OSError) as error:
             if getattr(error, "errno", None) == errno.EPIPE:
