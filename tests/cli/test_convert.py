@@ -93,7 +93,7 @@ def test_standard_streams(points):
 def test_table_options_are_those_of_points(folder):
     Path("t.txt").write_text("id;north;east\n7;1,5;2,5\n8;3,5;4,5\n")
     ok("convert", "t.txt", "p.csv", "--columns", "east,north", "--decimal", ",")
-    assert Path("p.csv").read_text() == "x,y\n2.5,1.5\n4.5,3.5\n"
+    assert Path("p.csv").read_text() == "x,y,id\n2.5,1.5,7\n4.5,3.5,8\n"
 
 
 def test_what_cannot_be_converted(points, image):
@@ -115,3 +115,37 @@ def test_many_files(points):
     assert files("out") == {"a.npy", "b.npy"}
     assert [made["points"] for made in out["files"]] == [200, 200]
     np.testing.assert_array_equal(np.load("out/a.npy"), points)
+
+
+def test_other_columns_travel(folder):
+    pytest.importorskip("pyogrio")
+    Path("t.csv").write_text('id,east,north,kind\n7,1.5,2.5,"oak, red"\n8,3.5,4.5,\n')
+    ok("convert", "t.csv", "t.gpkg", "--columns", "east,north", "--crs", "EPSG:25832")
+    frame = am.read_geo("t.gpkg")
+    assert frame.crs.to_epsg() == 25832
+    assert frame["id"].tolist() == [7, 8]
+    assert "the reference system is not kept" in warned("convert", "t.gpkg", "back.csv")
+    lines = Path("back.csv").read_text().splitlines()
+    assert lines[:2] == ["x,y,id,kind", '1.5,2.5,7,"oak, red"']
+    out = warned("convert", "t.csv", "p.npy", "--columns", "east,north")
+    assert "left out: id, kind" in out
+
+
+def test_geometries_go_from_gis_to_gis(points):
+    pytest.importorskip("pyogrio")
+    ok("polygons", "points.csv", "--crs", "EPSG:25832", "-o", "a.gpkg")
+    assert facts("convert", "a.gpkg", "a.fgb")["kind"] == "geometries"
+    ok("convert", "a.fgb", "b.gpkg")
+    first, again = am.read_geo("a.gpkg"), am.read_geo("b.gpkg")
+    assert first.crs == again.crs
+    assert first.geometry.geom_equals_exact(again.geometry, 0.0).all()
+    assert first["area"].tolist() == again["area"].tolist()
+
+
+def test_a_column_z_is_a_coordinate(folder):
+    Path("t.csv").write_text("x,y,z\n1,2,3\n4,5,6\n")
+    assert warned("convert", "t.csv", "p.npy") == ""
+    assert np.load("p.npy").tolist() == [[1, 2, 3], [4, 5, 6]]
+    ok("convert", "p.npy", "p.ply")
+    ok("convert", "p.ply", "back.csv")
+    assert Path("back.csv").read_text() == "x,y,z\n1.0,2.0,3.0\n4.0,5.0,6.0\n"

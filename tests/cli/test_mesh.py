@@ -126,3 +126,13 @@ def test_options_that_have_no_meaning_are_refused(table, image):
     assert "--points has no meaning for 'points.csv', which is a table" in text
     assert "--columns has no meaning" in refused(2, "mesh", image, "--columns", "x,y")
     assert "--invert has no meaning" in refused(2, "mesh", "demo:disc", "--invert")
+
+
+def test_other_columns_can_stay_with_the_vertices(points):
+    heights = np.arange(200) % 17
+    rows = np.column_stack((points, heights))
+    np.savetxt("t.csv", rows, delimiter=",", header="x,y,height", comments="", fmt="%.17g")
+    ok("mesh", "t.csv", "-r", "inf", "--keep-columns", "-o", "m.npz")
+    np.testing.assert_array_equal(read_mesh("m.npz").point_data["height"], heights)
+    ok("mesh", "t.csv", "-r", "inf", "-o", "n.npz")
+    assert "height" not in read_mesh("n.npz").point_data

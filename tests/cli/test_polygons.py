@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 import alphamesh as am
-from cli_tools import facts, files, ok, process, refused
+from cli_tools import facts, files, ok, process, refused, run
 
+pytest.importorskip("geopandas")
+pytest.importorskip("pyogrio")
 shapely = pytest.importorskip("shapely")
 
 
@@ -42,10 +44,52 @@ def test_the_reference_system_is_kept(points):
         ok("polygons", "points.csv", "--crs", given, "-o", "a.geojson")
         kept = json.loads(Path("a.geojson").read_text())["crs"]["properties"]["name"]
         assert kept == f"urn:ogc:def:crs:EPSG::{code}"
-    for args in ((), ("--crs", "EPSG:4326")):  # the one that GeoJSON means anyway
-        ok("polygons", "points.csv", *args, "-o", "a.geojson")
-        assert "crs" not in json.loads(Path("a.geojson").read_text())
+    ok("polygons", "points.csv", "-o", "a.geojson")
+    assert "crs" not in json.loads(Path("a.geojson").read_text())
     assert "EPSG:25832" in refused(2, "polygons", "points.csv", "--crs", "moon base")
+
+
+def test_degrees_are_warned_of(folder):
+    Path("p.csv").write_text("lon,lat\n8,50\n9,50\n8,51\n")
+    result = run("polygons", "p.csv", "--crs", "EPSG:4326")
+    assert result.exit_code == 0
+    assert result.stderr.startswith("Warning: ")
+    assert "to_crs" in result.stderr
+
+
+def test_files_of_a_gis_go_in_and_out(points):
+    args = ("--crs", "EPSG:25832", "--as", "points")
+    ok("polygons", "points.csv", *args, "-o", "p.gpkg")
+    out = facts("polygons", "p.gpkg", "-o", "a.parquet")
+    assert out["input"]["crs"] == "EPSG:25832"
+    made = am.read_geo("a.parquet")
+    assert made.crs.to_epsg() == 25832
+    shape = am.AlphaComplex(points).at()
+    assert made["area"].tolist() == shape.regions.areas.tolist()
+    piped = facts("polygons", "-", stdin=Path("p.gpkg").read_bytes())
+    assert piped["area"] == out["area"]
+    assert "not in EPSG:3857: leave --crs out" in refused(
+        2, "polygons", "p.gpkg", "--crs", "EPSG:3857"
+    )
+    assert "several files" in refused(2, "polygons", "points.csv", "-o", "-", "--to", "shp")
+
+
+def test_columns_become_aggregates_and_elevations(points):
+    heights = np.arange(200) % 17
+    rows = np.column_stack((points, heights))
+    np.savetxt("t.csv", rows, delimiter=",", header="x,y,height", comments="", fmt="%.17g")
+    args = ("--aggregate", "height:max", "--aggregate", "height:mean")
+    ok("polygons", "t.csv", "-r", "20", *args, "--elevation", "height", "-o", "a.geojson")
+    shape = am.AlphaComplex(points).at(20.0)
+    drawn, told = features("a.geojson")
+    assert [row["height_max"] for row in told] == shape.region_values(heights, "max").tolist()
+    assert told[0]["height_mean"] == shape.region_values(heights, "mean")[0]
+    corners = shapely.get_coordinates(drawn[0], include_z=True)
+    assert set(corners[:, 2]) <= set(heights)
+    result = run("polygons", "t.csv", "--aggregate", "size:max", "-o", "b.geojson")
+    assert result.exit_code == 1
+    assert "no column 'size'" in result.stderr
+    assert not Path("b.geojson").exists()
 
 
 def test_all_in_one_and_all_that_there_is(points):
@@ -97,8 +141,8 @@ def test_polygons_of_many_files(folder):
     assert files("out") == {"annulus.geojson", "eight.geojson"}
 
 
-def test_without_shapely_it_says_what_to_install(points):
-    Path("sitecustomize.py").write_text("import sys; sys.modules['shapely'] = None\n")
+def test_without_geopandas_it_says_what_to_install(points):
+    Path("sitecustomize.py").write_text("import sys; sys.modules['geopandas'] = None\n")
     import os
 
     env = {**os.environ}

@@ -16,9 +16,9 @@ from rich.console import Console
 
 from alphamesh.cli.app import app
 from alphamesh.cli.command import Command
+from alphamesh.cli.files import FigureFile
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import size_text
-from alphamesh.cli.types import FigureFile
 from alphamesh.plot import FIGURE_FORMATS
 from cli_tools import files, ok, process, refused
 

@@ -57,3 +57,13 @@ def test_one_standard_input_is_all_there_is(points):
 def test_the_places_are_not_overwritten(points, places):
     text = refused(2, "query", "points.csv", "places.csv", "-o", "places.csv")
     assert "writing there would destroy it" in text
+
+
+def test_other_columns_of_the_places_are_kept(points):
+    Path("named.csv").write_text('name,x,y\n"here, there",250,250\nfar,9999,0\n')
+    lines = ok("query", "points.csv", "named.csv", "-r", "inf", "-o", "-").splitlines()
+    assert lines[0] == "x,y,name,inside,region,distance"
+    assert lines[1].startswith('250.0,250.0,"here, there",1,0,-')
+    assert lines[2].startswith("9999.0,0.0,far,0,-1,")
+    Path("twin.csv").write_text("x,y,region\n1,2,3\n")
+    assert "has a column 'region'" in refused(2, "query", "points.csv", "twin.csv")

@@ -9,10 +9,11 @@ import click
 
 from alphamesh.cli.building import Job, cloud_options, need_matplotlib, source_argument
 from alphamesh.cli.command import Command, setting
+from alphamesh.cli.files import STREAM, FilmFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import length_text, number
-from alphamesh.cli.types import STREAM, FilmFile, RadiiType
+from alphamesh.cli.types import RadiiType
 
 __all__ = ["command"]
 

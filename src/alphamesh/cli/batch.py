@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import click
 
 from alphamesh.cli.command import Explained, setting
-from alphamesh.cli.inputs import DEMO, kind_of
+from alphamesh.cli.kinds import DEMO, kind_of
 from alphamesh.cli.outputs import check_targets
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN

@@ -17,6 +17,7 @@ from alphamesh.cli.command import (
     threads_option,
     units_option,
 )
+from alphamesh.cli.files import FigureFile
 from alphamesh.cli.inputs import Input, InputOptions, load, sampling_options, table_options
 from alphamesh.cli.outputs import Outputs, write_bytes
 from alphamesh.cli.progress import Steps
@@ -28,7 +29,7 @@ from alphamesh.cli.summary import (
     print_lines,
     size_text,
 )
-from alphamesh.cli.types import AUTO, FigureFile, RadiusType, Rule, SourceType
+from alphamesh.cli.types import AUTO, RadiusType, Rule, SourceType
 
 if TYPE_CHECKING:
     from alphamesh.complex import AlphaComplex
@@ -88,14 +89,28 @@ class Job:
     as_json: bool
 
     @classmethod
-    def begin(cls, source: str, options: dict[str, Any], steps: Steps) -> Job:
-        """Read `source` and build its complex; of `options`, those of `cloud_options` count."""
+    def begin(
+        cls,
+        source: str,
+        options: dict[str, Any],
+        steps: Steps,
+        *,
+        attributes: bool = False,
+        crs: str | None = None,
+    ) -> Job:
+        """Read `source` and build its complex; of `options`, those of `cloud_options` count.
+
+        With `attributes`, other columns of its file are read, too. `crs` is the reference
+        system of points that come with none.
+        """
         from alphamesh.complex import AlphaComplex
 
         of_input = {field.name: options[field.name] for field in fields(InputOptions)}
-        given = load(source, InputOptions(**of_input), steps)
+        given = load(source, InputOptions(**of_input), steps, attributes=attributes)
+        if crs is not None:
+            given = given.placed(crs)
         with steps.step(f"Triangulating {counted(len(given.points), 'point')}") as done:
-            built = AlphaComplex(given.points, threads=options["threads"], progress=done)
+            built = AlphaComplex(given.cloud, threads=options["threads"], progress=done)
         return cls(given, built, options["as_json"])
 
     def choose(self, radius: float | Rule, steps: Steps) -> RadiusChoice:

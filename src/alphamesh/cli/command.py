@@ -5,13 +5,15 @@ from __future__ import annotations
 import errno
 import re
 import traceback
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 import click
 
 from alphamesh.cli import INTERRUPTED, NOTHING_LEFT
-from alphamesh.errors import AlphameshError, ParameterError
+from alphamesh.errors import AlphameshError, AlphameshWarning, ParameterError
 
 __all__ = [
     "Command",
@@ -56,7 +58,7 @@ _SECTIONS: dict[str, tuple[str, ...]] = {
     "Points from images": ("count", "threshold", "invert", "seed", "jitter", "replace"),
     "Files of points": (
         *("columns", "file_format", "delimiter", "decimal", "header"),
-        *("skip", "comment", "encoding", "key"),
+        *("skip", "comment", "encoding", "key", "layer"),
     ),
     "General": ("threads", "overwrite", "units", "as_json", "quiet", "debug"),
 }
@@ -100,7 +102,8 @@ class Command(click.Command):
         """Run the command; translate what is known to go wrong."""
         debug = ctx.params.pop("debug")
         try:
-            return super().invoke(ctx)
+            with _warnings_as_lines():
+                return super().invoke(ctx)
         except KeyboardInterrupt:
             click.echo(NOTHING_LEFT, err=True)
             raise click.exceptions.Exit(INTERRUPTED) from None
@@ -113,6 +116,19 @@ class Command(click.Command):
             raise kind(explain(error)) from None
 
 
+@contextmanager
+def _warnings_as_lines() -> Iterator[None]:
+    """Show warnings of alphamesh as one line each, whenever they come."""
+
+    def show(message: Warning | str, *_: Any, **__: Any) -> None:
+        click.echo(f"{click.style('Warning:', fg='yellow')} {message}", err=True)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", AlphameshWarning)
+        warnings.showwarning = show
+        yield
+
+
 def write_section(formatter: click.HelpFormatter, title: str, lines: Sequence[str]) -> None:
     """Add lines to a help text as they are."""
     with formatter.section(title):
@@ -122,6 +138,7 @@ def write_section(formatter: click.HelpFormatter, title: str, lines: Sequence[st
 
 # Errors are written for Python, where parameters are keywords; here they are options.
 _OPTION_OF = {
+    **{name: f"--{name}" for name in ("crs", "layer", "aggregate", "elevation", "simplify")},
     "file_format": "--from",
     "n": "--points",
     **{name: f"--{name}" for name in ("jitter", "replace", "invert", "threshold", "header")},

@@ -17,24 +17,37 @@ from alphamesh.cli.command import (
     overwrite_option,
     quiet_option,
 )
-from alphamesh.cli.inputs import MESH, POINTS, InputOptions, holds, table_options
+from alphamesh.cli.files import STREAM, ConvertedFile, FormatType
+from alphamesh.cli.inputs import Input, InputOptions, table_options
+from alphamesh.cli.kinds import MESH, POINTS, holds
 from alphamesh.cli.outputs import Output, Outputs, check_targets
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted, print_json, print_lines, size_text
-from alphamesh.cli.types import STREAM, ConvertedFile, FormatType, SourceType
+from alphamesh.cli.tables import write_table
+from alphamesh.cli.types import SourceType
 from alphamesh.cli.write_points import POINT_WRITERS, write_points
 from alphamesh.errors import FileReadError, LossyFormatWarning
 
 if TYPE_CHECKING:
     from alphamesh.io.meshes import Mesh
+    from alphamesh.table import PointTable
 
 __all__ = ["command"]
 
 _FILE = ConvertedFile(".csv")
 
+GEOMETRIES = "geometries"
+
+# Files of points that hold other columns, besides those of a GIS.
+_WITH_COLUMNS = (".csv", ".tsv", ".parquet")
+
+# Files of points whose columns have no names.
+_NAMELESS = (".npy", ".npz", ".xyz")
+
 _EXAMPLES = (
     "alphamesh convert points.csv points.parquet",
+    "alphamesh convert trees.csv trees.gpkg --columns easting,northing",
     "alphamesh convert mesh.vtu mesh.stl",
     "alphamesh convert mesh.ply corners.csv",
     "alphamesh convert *.ply --output-dir vtu --to vtu --keep-going",
@@ -52,6 +65,11 @@ _EXAMPLES = (
     metavar="FORMAT",
     help='Format of OUTPUT, if it is "-", or of the files in --output-dir.',
 )
+@click.option(
+    "--crs",
+    metavar="NAME",
+    help="The reference system of the points, such as EPSG:25832.  [default: that of INPUT]",
+)
 @batch_options
 @table_options
 @overwrite_option
@@ -61,7 +79,8 @@ def command(names: tuple[str, ...], to: str | None, **options: Any) -> None:
     """Convert points or a mesh into another format.
 
     INPUT and OUTPUT are files whose extensions tell their formats, or "-". A file
-    of points becomes another one; so does a mesh, or its vertices become points.
+    of points becomes another one, with its other columns where the format holds
+    them; so does a mesh, or its vertices become points; so does a file of a GIS.
     What the new format cannot hold is named in a warning. With --output-dir,
     every name is that of an INPUT.
     """
@@ -105,12 +124,18 @@ def _tell(source: str, facts: dict[str, Any], outputs: Outputs, *, as_json: bool
         print_json({"input": source, **facts, "files": files, "failures": outputs.failures})
     elif sizes:
         ((path, size),) = sizes.items()
-        held = counted(facts["points"], "point")
-        if facts["kind"] == MESH:
-            held += f", {counted(facts['cells'], 'cell')}"
         name = "standard input" if source == STDIN else source
-        print_lines({"Input": name, "Holds": held, "Written": f"{path}  ({size_text(size)})"})
+        print_lines(
+            {"Input": name, "Holds": _held(facts), "Written": f"{path}  ({size_text(size)})"}
+        )
     outputs.raise_failures()
+
+
+def _held(facts: dict[str, Any]) -> str:
+    if facts["kind"] == GEOMETRIES:
+        return counted(facts["points"], "geometry", "geometries")
+    held = counted(facts["points"], "point")
+    return held + (f", {counted(facts['cells'], 'cell')}" if facts["kind"] == MESH else "")
 
 
 def _convert(source: str, path: Path, options: dict[str, Any]) -> dict[str, Any]:
@@ -124,7 +149,11 @@ def _convert(source: str, path: Path, options: dict[str, Any]) -> dict[str, Any]
 
 
 def _convert_file(source: str, path: Path, options: dict[str, Any]) -> dict[str, Any]:
+    from alphamesh.io.geo import GEO_FORMATS
+
     kind = holds(source, options["file_format"])
+    target, suffix = path.suffix.lower(), PurePath(source).suffix.lower()
+    both_geo = suffix in GEO_FORMATS and target in GEO_FORMATS
     if kind == MESH:
         return _convert_mesh(source, path)
     if kind != POINTS:
@@ -132,7 +161,9 @@ def _convert_file(source: str, path: Path, options: dict[str, Any]) -> dict[str,
             f"{source} holds neither points nor a mesh; draw points from an image with "
             "alphamesh sample"
         )
-    if path.suffix.lower() not in POINT_WRITERS:
+    if both_geo and not {suffix, target} <= set(POINT_WRITERS):
+        return _convert_frame(source, path, options)
+    if target not in POINT_WRITERS and target not in GEO_FORMATS:
         raise FileReadError(
             f"{source} holds points without a mesh, and {path.suffix} is for meshes; make "
             f"one with: alphamesh mesh {source} -o {path.name}"
@@ -140,13 +171,76 @@ def _convert_file(source: str, path: Path, options: dict[str, Any]) -> dict[str,
     return _convert_points(source, path, options)
 
 
+def _convert_frame(source: str, path: Path, options: dict[str, Any]) -> dict[str, Any]:
+    """Convert geometries of any kind, columns and reference system and all."""
+    from alphamesh.io.geo import read_geo, write_geo
+
+    frame = read_geo(source, layer=options["layer"])
+    write_geo(frame, path)
+    return {"kind": GEOMETRIES, "points": len(frame), "cells": 0}
+
+
 def _convert_points(source: str, path: Path, options: dict[str, Any]) -> dict[str, Any]:
-    from alphamesh.io.points import read_points
+    from alphamesh.io.geo import GEO_FORMATS, write_geo
 
     given = {name: options[name] for name in InputOptions.table_names()}
-    points = read_points(source, **InputOptions(**given).table())
-    write_points(points, path)
-    return {"kind": POINTS, "points": len(points), "cells": 0}
+    table = _read(source, InputOptions(**given))
+    if options["crs"] is not None:
+        placed = Input(table.points, source, {}, table).placed(options["crs"])
+        table = placed.table or table
+    table = _in_space(table, flat=PurePath(source).suffix.lower() == ".ply")
+    suffix = path.suffix.lower()
+    if suffix in GEO_FORMATS and not (suffix in POINT_WRITERS and table.crs is None):
+        write_geo(table, path)
+    elif suffix in _WITH_COLUMNS:
+        write_table(path, _columns_of(table))
+    else:
+        if table.columns:
+            warnings.warn(
+                f"{path}: holds coordinates alone, left out: {', '.join(table.columns)}; "
+                f"these formats hold them: {', '.join((*_WITH_COLUMNS, '.gpkg'))}",
+                LossyFormatWarning,
+                stacklevel=2,
+            )
+        write_points(table.points, path)
+    if table.crs is not None and suffix not in GEO_FORMATS:
+        warnings.warn(
+            f"{path}: the reference system is not kept ({table.crs.name})",
+            LossyFormatWarning,
+            stacklevel=2,
+        )
+    return {"kind": POINTS, "points": len(table), "cells": 0}
+
+
+def _read(source: str, options: InputOptions) -> PointTable:
+    """Return points; where columns have no names, a third one is z."""
+    from alphamesh.io.points import read_table
+
+    given = options.table()
+    suffix = options.suffix or PurePath(source).suffix.lower()
+    if suffix in _NAMELESS and options.columns is None:
+        try:
+            return read_table(source, **given, dimension=3)
+        except FileReadError:
+            pass  # two columns, or a fault that reading two will tell
+    return read_table(source, **given)
+
+
+def _in_space(table: PointTable, *, flat: bool) -> PointTable:
+    """Return points with their column z as a coordinate; if `flat`, not if it is all 0."""
+    z = table.columns.get("z")
+    if z is None or z.dtype.kind not in "iuf" or table.points.shape[1] == 3:
+        return table
+    others = {name: values for name, values in table.columns.items() if name != "z"}
+    points = table.points if flat and not z.any() else np.column_stack((table.points, z))
+    return type(table)(points, others, table.crs)
+
+
+def _columns_of(table: PointTable) -> dict[str, Any]:
+    """Return the coordinates and the other columns; one with the name of an axis comes last."""
+    axes = dict(zip("xyz", table.points.T, strict=False))
+    others = {f"{name}_2" if name in axes else name: v for name, v in table.columns.items()}
+    return axes | others
 
 
 def _convert_mesh(source: str, path: Path) -> dict[str, Any]:

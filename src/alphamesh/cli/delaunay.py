@@ -17,10 +17,10 @@ from alphamesh.cli.building import (
     source_argument,
 )
 from alphamesh.cli.command import Command
+from alphamesh.cli.files import MeshFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import area_text
-from alphamesh.cli.types import MeshFile
 
 if TYPE_CHECKING:
     from alphamesh.delaunay import Delaunay

@@ -10,18 +10,8 @@ import click
 import numpy as np
 
 from alphamesh.cli.command import Command, json_option, quiet_option, threads_option
-from alphamesh.cli.inputs import (
-    DEMO,
-    IMAGE,
-    MESH,
-    POINTS,
-    InputOptions,
-    demo_shape,
-    holds,
-    load,
-    ply_elements,
-    table_options,
-)
+from alphamesh.cli.inputs import InputOptions, demo_shape, load, table_options
+from alphamesh.cli.kinds import DEMO, IMAGE, MESH, POINTS, holds, ply_elements
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted, number, points_text, print_json, print_lines

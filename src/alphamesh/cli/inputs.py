@@ -2,50 +2,35 @@
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from pathlib import Path, PurePath
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 import numpy as np
 from numpy.typing import NDArray
 
+from alphamesh.cli.kinds import DEMO, DEMO_PREFIX, MESH, POINTS, kind_of
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted
 from alphamesh.cli.types import ColumnsType
+from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
     from alphamesh.sampling import DemoShape
+    from alphamesh.table import PointTable
 
 __all__ = [
-    "DEMO",
-    "IMAGE",
-    "MESH",
-    "POINTS",
     "Input",
     "InputOptions",
     "demo_shape",
-    "holds",
-    "kind_of",
     "load",
-    "ply_elements",
     "sampling_options",
     "seed_option",
     "table_options",
 ]
-
-DEMO, IMAGE, MESH, POINTS = "demo", "image", "mesh", "points"
-
-_HEADER_BYTES = 1 << 16
-_DEMO_PREFIX = "demo:"
-_IMAGE_SUFFIXES = frozenset(
-    {".avif", ".bmp", ".gif", ".ico", ".jp2", ".jpeg", ".jpg", ".pbm", ".pcx", ".pgm", ".png"}
-    | {".pnm", ".ppm", ".qoi", ".tga", ".tif", ".tiff", ".webp"}
-)
-_MESH_SUFFIXES = frozenset({".vtu", ".vtk", ".msh", ".obj", ".off", ".stl"})
 
 _DEFAULT_COUNT = 2000
 _DEFAULT_THRESHOLD = 0.5
@@ -73,6 +58,7 @@ class InputOptions:
     comment: str | None = None
     encoding: str | None = None
     key: str | None = None
+    layer: str | None = None
 
     @property
     def suffix(self) -> str | None:
@@ -115,6 +101,7 @@ _TABLE = {
     "comment": "--comment",
     "encoding": "--encoding",
     "key": "--key",
+    "layer": "--layer",
 }
 _OF_TABLES = {name: option for name, option in _TABLE.items() if name != "file_format"}
 
@@ -177,16 +164,49 @@ _TABLE_OPTIONS: dict[str, dict[str, Any]] = {
         "metavar": "NAME",
         "help": "NPZ: the array that holds the points.  [default: points]",
     },
+    "layer": {
+        "metavar": "NAME",
+        "help": "GeoPackage: the layer that holds the points.  [default: the only one]",
+    },
 }
 
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """A cloud, and where it comes from, for people (`text`) and scripts (`facts`)."""
+    """A cloud, and where it comes from, for people (`text`) and scripts (`facts`).
+
+    `table` holds other columns of its file and the reference system, if these were read.
+    """
 
     points: NDArray[np.float64]
     text: str
     facts: dict[str, Any]
+    table: PointTable | None = None
+
+    def placed(self, crs: str) -> Input:
+        """Return it with a reference system, which it must not have already, unless the same.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such system, or the points are in another one.
+        """
+        from alphamesh.table import PointTable
+
+        columns = {} if self.table is None else self.table.columns
+        table = PointTable(self.points, columns, crs)
+        known = None if self.table is None else self.table.crs
+        if known not in (None, table.crs):
+            raise ParameterError(
+                f"the points are in {known.name}, not in {crs}: leave --crs out, and project "
+                "the result with a GIS"
+            )
+        return replace(self, table=table)
+
+    @property
+    def cloud(self) -> PointTable | NDArray[np.float64]:
+        """The points with all that is known of them."""
+        return self.points if self.table is None else self.table
 
 
 def seed_option(command: Function) -> Function:
@@ -213,54 +233,10 @@ def _with_options(command: Function, options: dict[str, dict[str, Any]]) -> Func
     return command
 
 
-def kind_of(source: str, file_format: str | None = None) -> str:
-    """Return what `source` is by its name: "demo", "image", "mesh" or "points"."""
-    if source.startswith(_DEMO_PREFIX):
-        return DEMO
-    suffix = PurePath(source).suffix.lower()
-    if file_format is not None:
-        suffix = f".{file_format.lower().removeprefix('.')}"
-    if suffix in _IMAGE_SUFFIXES:
-        return IMAGE
-    return MESH if suffix in _MESH_SUFFIXES else POINTS
-
-
-def holds(source: str, file_format: str | None = None) -> str:
-    """Return what is in a file, "mesh" or "points" also where its format can hold both."""
-    kind = kind_of(source, file_format)
-    suffix = PurePath(source).suffix.lower()
-    if kind != POINTS or file_format is not None or not Path(source).is_file():
-        return kind
-    if suffix == ".npz":
-        return MESH if _is_mesh_archive(source) else POINTS
-    if suffix == ".ply":
-        elements = ply_elements(source)
-        return MESH if elements.get("face", 0) or elements.get("edge", 0) else POINTS
-    return kind
-
-
-def ply_elements(source: str) -> dict[str, int]:
-    """Return the count of each element that the header of a PLY file tells."""
-    with Path(source).open("rb") as file:
-        words = file.read(_HEADER_BYTES).partition(b"end_header")[0].split()
-    return {
-        name.decode(errors="replace"): int(count)
-        for word, name, count in zip(words, words[1:], words[2:], strict=False)
-        if word == b"element" and count.isdigit()
-    }
-
-
-def _is_mesh_archive(source: str) -> bool:
-    """Return whether an NPZ file holds a mesh, not just points."""
-    try:
-        with zipfile.ZipFile(source) as archive:
-            return "triangles.npy" in archive.namelist()
-    except zipfile.BadZipFile:
-        return False  # whoever reads it next explains
-
-
-def load(source: str, options: InputOptions, steps: Steps) -> Input:
-    """Return the cloud that `source` stands for.
+def load(
+    source: str, options: InputOptions, steps: Steps, *, attributes: bool = False
+) -> Input:
+    """Return the cloud that `source` stands for, with other columns if `attributes`.
 
     Raises
     ------
@@ -270,13 +246,15 @@ def load(source: str, options: InputOptions, steps: Steps) -> Input:
         If it cannot be read.
     """
     if source != STDIN:
-        return _load(source, source, options, steps)
+        return _load(source, source, options, steps, attributes)
     with from_standard_input(options.suffix) as path:
-        read = _load(str(path), "standard input", options, steps)
+        read = _load(str(path), "standard input", options, steps, attributes)
     return replace(read, facts={**read.facts, "name": STDIN})
 
 
-def _load(source: str, name: str, options: InputOptions, steps: Steps) -> Input:
+def _load(
+    source: str, name: str, options: InputOptions, steps: Steps, attributes: bool
+) -> Input:
     """Return the cloud in a file called `name`."""
     kind = kind_of(source, options.file_format)
     if kind == MESH:
@@ -286,19 +264,31 @@ def _load(source: str, name: str, options: InputOptions, steps: Steps) -> Input:
         )
     if kind == POINTS:
         options.refuse(_SAMPLING, name, "which is a table: its points are taken as they are")
-        return _load_table(source, name, options, steps)
+        return _load_table(source, name, options, steps, attributes)
     options.refuse(_OF_TABLES, name, "which is no table")
     if kind == DEMO:
         options.refuse(_OF_IMAGES, name, "a demo shape, which has no shades")
     return _load_pixels(source, name, options, steps)
 
 
-def _load_table(source: str, name: str, options: InputOptions, steps: Steps) -> Input:
-    from alphamesh.io.points import read_points
+def _load_table(
+    source: str, name: str, options: InputOptions, steps: Steps, attributes: bool
+) -> Input:
+    from alphamesh.io.geo import GEO_FORMATS
+    from alphamesh.io.points import read_points, read_table
 
+    facts: dict[str, Any] = {"kind": POINTS, "name": source}
+    text = f"{name} (points)"
+    suffix = options.suffix or PurePath(source).suffix.lower()
+    if not (attributes or suffix in GEO_FORMATS):
+        with steps.step(f"Reading {name}"):
+            return Input(read_points(source, **options.table()), text, facts)
     with steps.step(f"Reading {name}"):
-        points = read_points(source, **options.table())
-    return Input(points, f"{name} (points)", {"kind": POINTS, "name": source})
+        table = read_table(source, **options.table())
+    if table.crs is not None:
+        facts["crs"] = table.crs.to_string()
+        text = f"{name} (points in {table.crs.name})"
+    return Input(table.points, text, facts, table)
 
 
 def _load_pixels(source: str, name: str, options: InputOptions, steps: Steps) -> Input:
@@ -349,7 +339,7 @@ def demo_shape(source: str) -> DemoShape:
     """
     from alphamesh.sampling import DEMO_SHAPES
 
-    name = source.removeprefix(_DEMO_PREFIX)
+    name = source.removeprefix(DEMO_PREFIX)
     if name not in DEMO_SHAPES:
         listed = ", ".join(DEMO_SHAPES)
         raise click.UsageError(f"there is no demo shape {name!r}; choose among: {listed}")

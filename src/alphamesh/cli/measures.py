@@ -10,10 +10,11 @@ import numpy as np
 
 from alphamesh.cli.building import Job, cloud_options, source_argument
 from alphamesh.cli.command import Command
+from alphamesh.cli.files import TableFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import number, print_table
-from alphamesh.cli.tables import TableFile, write_table
+from alphamesh.cli.tables import write_table
 from alphamesh.cli.types import RadiiType
 
 if TYPE_CHECKING:

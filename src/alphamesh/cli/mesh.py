@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,10 +20,11 @@ from alphamesh.cli.building import (
     save_figure,
 )
 from alphamesh.cli.command import Command, setting
+from alphamesh.cli.files import MeshFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import area_text, length_text
-from alphamesh.cli.types import MeshFile, SourceType
+from alphamesh.cli.types import SourceType
 
 if TYPE_CHECKING:
     from alphamesh.radius import RadiusChoice
@@ -47,6 +49,11 @@ _EXAMPLES = (
 @output_options(MeshFile(_STREAM), "Write the mesh here", name="meshes", many=True)
 @batch_options
 @radius_option
+@click.option(
+    "--keep-columns",
+    is_flag=True,
+    help="Keep other columns of INPUT as numbers of the vertices.",
+)
 @plot_option("Draw cloud, Delaunay triangulation and complex side by side.")
 @cloud_options
 def command(
@@ -76,7 +83,7 @@ def command(
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
         job, choice, shape = _made(source, options, steps)
-        files = [Output(path, shape.save, _STREAM) for path in meshes]
+        files = [Output(path, _saver(job, shape, options), _STREAM) for path in meshes]
         if picture is not None:
             files.append(Output(picture, lambda path: _draw(job, choice, path)))
         outputs.write(files, steps)
@@ -94,7 +101,7 @@ def _mesh_file(source: str, path: Path, options: dict[str, Any]) -> dict[str, An
     """Make one mesh of many."""
     with Steps(quiet=True) as steps:
         job, choice, shape = _made(source, options, steps)
-    shape.save(path)
+    _saver(job, shape, options)(path)
     return {
         "input": job.given.facts,
         "points": len(job.complex.points),
@@ -107,9 +114,14 @@ def _mesh_file(source: str, path: Path, options: dict[str, Any]) -> dict[str, An
 def _made(
     source: str, options: dict[str, Any], steps: Steps
 ) -> tuple[Job, RadiusChoice, AlphaShape]:
-    job = Job.begin(source, options, steps)
+    job = Job.begin(source, options, steps, attributes=options["keep_columns"])
     choice = job.choose(options["radius"], steps)
     return job, choice, job.complex.at(choice.radius)
+
+
+def _saver(job: Job, shape: AlphaShape, options: dict[str, Any]) -> Callable[[Path], None]:
+    """Return what writes the mesh."""
+    return partial(shape.save, point_data=job.given.table if options["keep_columns"] else None)
 
 
 def _draw(job: Job, choice: RadiusChoice, path: Path) -> None:

@@ -10,10 +10,10 @@ from typing import Any, TypeVar
 
 import click
 
-from alphamesh.cli.command import Explained, setting
+from alphamesh.cli.command import Explained, explain, setting
+from alphamesh.cli.files import STREAM, File, FormatType
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import to_standard_output
-from alphamesh.cli.types import STREAM, File, FormatType
 from alphamesh.errors import AlphameshError, FileWriteError
 from alphamesh.io._atomic import atomic_path, check_output
 
@@ -106,7 +106,7 @@ class Outputs:
                         output.write(output.path)
                         self.written.append(output.path)
                 except AlphameshError as error:
-                    self.failures.append(str(error))
+                    self.failures.append(explain(error))
             for notice in noticed:
                 click.echo(f"{click.style('Warning:', fg='yellow')} {notice.message}", err=True)
 

@@ -18,9 +18,10 @@ from alphamesh.cli.building import (
     source_argument,
 )
 from alphamesh.cli.command import Command
+from alphamesh.cli.files import FigureFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.types import FigureFile, Rule
+from alphamesh.cli.types import Rule
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

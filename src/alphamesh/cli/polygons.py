@@ -12,12 +12,12 @@ import click
 from alphamesh.cli.batch import batch_options, only_one, run_batch, threads_each
 from alphamesh.cli.building import Job, cloud_options, radius_text
 from alphamesh.cli.command import Command, setting
-from alphamesh.cli.features import CrsType, FeatureFile, need_shapely, write_features
+from alphamesh.cli.files import GeoFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.shaping import shape_at, shape_options
 from alphamesh.cli.summary import area_text, length_text
-from alphamesh.cli.types import SourceType
+from alphamesh.cli.types import AggregateType, SourceType
 
 if TYPE_CHECKING:
     from alphamesh.planar import PlanarShape
@@ -29,6 +29,7 @@ _STREAM = ".geojson"
 
 _EXAMPLES = (
     "alphamesh polygons trees.csv --columns easting,northing --crs EPSG:25832 -o woods.geojson",
+    "alphamesh polygons trees.gpkg --aggregate height:max -o woods.gpkg",
     "alphamesh polygons points.csv -r 25 --min-area 400 --fill-holes 50 -o regions.geojson",
     "alphamesh polygons points.csv --as shape --simplify 0.5 -o outline.wkt",
     "alphamesh polygons a.csv b.csv --output-dir outlines --to geojson",
@@ -38,18 +39,31 @@ _EXAMPLES = (
 
 @click.command("polygons", cls=Command, examples=_EXAMPLES)
 @click.argument("sources", metavar="INPUT...", nargs=-1, required=True, type=SourceType())
-@output_options(FeatureFile(_STREAM), "Write the polygons here", many=True)
+@output_options(GeoFile(_STREAM), "Write the polygons here", many=True)
 @batch_options
 @click.option(
     "--as",
     "what",
-    type=click.Choice(["regions", "shape", "collection"]),
+    type=click.Choice(["regions", "shape", "collection", "triangles", "points"]),
     default="regions",
     show_default=True,
-    help="A polygon for each region, all in one, or all in one with the edges and vertices "
-    "that belong to no triangle.",
+    help="A polygon for each region; one for all; that with the edges and vertices in no "
+    "triangle; a polygon for each triangle; or the points with their regions.",
 )
-@click.option("--crs", type=CrsType(), metavar="NAME", help="Their reference system.")
+@click.option(
+    "--crs",
+    metavar="NAME",
+    help="The reference system of the points, such as EPSG:25832.  [default: that of INPUT]",
+)
+@click.option(
+    "--aggregate",
+    type=AggregateType(),
+    metavar="COLUMN:HOW",
+    multiple=True,
+    help="Tell the mean, min, max, sum, count or first of a column of INPUT. Can be given "
+    "several times.",
+)
+@click.option("--elevation", metavar="COLUMN", help="Column of INPUT with the z of each point.")
 @click.option(
     "--simplify",
     type=click.FloatRange(0),
@@ -75,7 +89,7 @@ def command(sources: tuple[str, ...], files: tuple[Path, ...], **options: Any) -
     of holes and triangles. With --output-dir, a file of every INPUT is written
     there, under its name.
     """
-    need_shapely()
+    _check(options)
     if options["folder"] is not None:
         if files:
             raise click.UsageError("-o is for one input, --output-dir for many")
@@ -87,11 +101,11 @@ def command(sources: tuple[str, ...], files: tuple[Path, ...], **options: Any) -
     check_targets(files, source)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        job = Job.begin(source, options, steps)
+        job = _job(source, options, steps)
         choice, shape = shape_at(job, options, steps)
         outputs.write(
             [
-                Output(path, lambda path: _write(path, choice, shape, options), _STREAM)
+                Output(path, lambda path: _write(path, job, shape, options), _STREAM)
                 for path in files
             ],
             steps,
@@ -116,9 +130,9 @@ _COLUMNS = ("points", "radius", "regions", "holes", "area")
 def _outline_file(source: str, path: Path, options: dict[str, Any]) -> dict[str, Any]:
     """Write the outlines of one input of many."""
     with Steps(quiet=True) as steps:
-        job = Job.begin(source, options, steps)
+        job = _job(source, options, steps)
         choice, shape = shape_at(job, options, steps)
-    _write(path, choice, shape, options)
+    _write(path, job, shape, options)
     points = len(job.complex.points)
     return {"input": job.given.facts, "points": points, **_facts(choice, shape)}
 
@@ -135,24 +149,38 @@ def _facts(choice: RadiusChoice, shape: PlanarShape) -> dict[str, Any]:
     }
 
 
-def _write(
-    path: Path, choice: RadiusChoice, shape: PlanarShape, options: dict[str, Any]
-) -> None:
-    """Write a feature for each region, or one."""
-    look = {name: options[name] for name in ("simplify", "smooth")}
-    columns: dict[str, Any]
-    if options["what"] == "regions":
-        found = shape.regions
-        columns = {
-            "region": range(len(found)),
-            "area": found.areas.tolist(),
-            "perimeter": found.perimeters.tolist(),
-            "holes": found.hole_counts.tolist(),
-            "triangles": found.triangle_counts.tolist(),
-        }
-        geometries: Sequence[Any] = list(shape.polygons(**look))
-    else:
-        facts = _facts(choice, shape)
-        columns = {name: [value] for name, value in facts.items() if name != "reason"}
-        geometries = [shape.geometry(collection=options["what"] == "collection", **look)]
-    write_features(path, geometries, columns, options["crs"])
+def _check(options: dict[str, Any]) -> None:
+    """Refuse before the work what cannot be: a missing library, an unknown CRS."""
+    from alphamesh._geopoints import as_crs, geopandas
+
+    geopandas("Writing polygons")
+    as_crs(options["crs"])
+
+
+def _job(source: str, options: dict[str, Any], steps: Steps) -> Job:
+    needed = options["aggregate"] or options["elevation"] or options["what"] == "points"
+    crs = options["crs"]
+    return Job.begin(source, options, steps, attributes=bool(needed), crs=crs)
+
+
+def _write(path: Path, job: Job, shape: PlanarShape, options: dict[str, Any]) -> None:
+    """Write a feature for each region, or triangle, or point, or one for all."""
+    from alphamesh.io.geo import write_geo
+
+    what = options["what"]
+    look = {name: options[name] for name in ("simplify", "smooth", "elevation")}
+    look |= {"data": job.given.table, "aggregate": _merged(options["aggregate"])}
+    frame = shape.to_geopandas("shape" if what == "collection" else what, **look)
+    if what == "collection":
+        simpler = {name: options[name] for name in ("simplify", "smooth")}
+        whole = shape.geometry(collection=True, **simpler)
+        frame = frame.set_geometry([whole], crs=frame.crs)
+    write_geo(frame, path)
+
+
+def _merged(asked: Sequence[tuple[str, str]]) -> dict[str, list[str]]:
+    """Return the ways to aggregate each column."""
+    merged: dict[str, list[str]] = {}
+    for column, how in asked:
+        merged.setdefault(column, []).append(how)
+    return merged

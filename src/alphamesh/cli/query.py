@@ -10,14 +10,16 @@ import numpy as np
 
 from alphamesh.cli.building import Job, cloud_options, radius_text, source_argument
 from alphamesh.cli.command import Command
-from alphamesh.cli.inputs import InputOptions, load
+from alphamesh.cli.files import TableFile
+from alphamesh.cli.inputs import Input, InputOptions, load
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.shaping import shape_at, shape_options
 from alphamesh.cli.streams import STDIN
 from alphamesh.cli.summary import counted, length_text
-from alphamesh.cli.tables import TableFile, write_table
+from alphamesh.cli.tables import write_table
 from alphamesh.cli.types import ColumnsType, SourceType
+from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -58,8 +60,8 @@ def command(
 
     INPUT is a mask image, a file of points, "-" for standard input, or demo:NAME
     for a built-in shape; the shape is its complex at one radius. PLACES is a
-    file of points, or "-". The answers have one line for each place: x, y,
-    inside (1 or 0, exact, borders belong to the shape), region (-1 outside) and
+    file of points, or "-". The answers have one line for each place: x, y, its
+    other columns, inside (1 or 0, exact, borders belong to the shape), region (-1 outside) and
     distance to the boundary, negative inside.
     """
     if source == places == STDIN:
@@ -68,11 +70,12 @@ def command(
     check_targets(tables, places)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        asked = load(places, InputOptions(columns=places_columns), steps).points
+        given = InputOptions(columns=places_columns)
+        known = load(places, given, steps, attributes=True)
         job = Job.begin(source, options, steps)
         choice, shape = shape_at(job, options, steps)
-        with steps.step(f"Asking about {counted(len(asked), 'place')}"):
-            columns = _answers(shape, asked, nearest)
+        with steps.step(f"Asking about {counted(len(known.points), 'place')}"):
+            columns = _with_columns(known, _answers(shape, known.points, nearest))
         files = [Output(path, lambda path: write_table(path, columns)) for path in tables]
         outputs.write(files, steps)
     inside = int(np.count_nonzero(columns["inside"]))
@@ -81,17 +84,29 @@ def command(
     facts = {
         "radius": choice.radius,
         "rule": choice.rule,
-        "places": len(asked),
+        "places": len(known.points),
         "inside": inside,
         "least_distance": least,
         "largest_distance": most,
     }
     lines = {
         "Radius": radius_text(choice),
-        "Places": f"{len(asked):,}, {inside:,} of them inside",
+        "Places": f"{len(known.points):,}, {inside:,} of them inside",
         "Distance": f"{length_text(least)} to {length_text(most)}, negative inside",
     }
     job.tell(facts, lines, outputs)
+
+
+def _with_columns(places: Input, answers: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Return the answers, after what the file of places holds besides its coordinates."""
+    known = {} if places.table is None else dict(places.table.columns)
+    twins = sorted(set(known) & set(answers))
+    if twins:
+        raise ParameterError(
+            f"PLACES has a column {twins[0]!r}, as the answers have; rename it there"
+        )
+    axes = {name: answers.pop(name) for name in ("x", "y")}
+    return axes | known | answers
 
 
 def _answers(

@@ -10,11 +10,12 @@ import numpy as np
 
 from alphamesh.cli.building import Job, cloud_options, radius_text, source_argument
 from alphamesh.cli.command import Command
+from alphamesh.cli.files import TableFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.shaping import shape_at, shape_options
 from alphamesh.cli.summary import area_text, length_text, number, print_table
-from alphamesh.cli.tables import TableFile, write_table
+from alphamesh.cli.tables import write_table
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

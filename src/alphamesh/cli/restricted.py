@@ -19,10 +19,11 @@ from alphamesh.cli.building import (
     source_argument,
 )
 from alphamesh.cli.command import Command
+from alphamesh.cli.files import TableFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import area_text, length_text
-from alphamesh.cli.tables import TableFile, write_table
+from alphamesh.cli.tables import write_table
 from alphamesh.cli.types import Rule
 
 if TYPE_CHECKING:

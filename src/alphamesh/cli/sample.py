@@ -8,19 +8,12 @@ from typing import Any
 import click
 
 from alphamesh.cli.command import Command, json_option, overwrite_option, quiet_option
-from alphamesh.cli.inputs import (
-    DEMO,
-    IMAGE,
-    Input,
-    InputOptions,
-    kind_of,
-    load,
-    sampling_options,
-)
+from alphamesh.cli.files import PointsFile
+from alphamesh.cli.inputs import Input, InputOptions, load, sampling_options
+from alphamesh.cli.kinds import DEMO, IMAGE, kind_of
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import print_json, print_lines, size_text
-from alphamesh.cli.types import PointsFile
 from alphamesh.cli.write_points import write_points
 
 __all__ = ["command"]

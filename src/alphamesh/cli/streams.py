@@ -112,8 +112,10 @@ def to_standard_output(write: Callable[[Path], None], suffix: str) -> None:
     Raises
     ------
     click.UsageError
-        If it is binary and would fill a terminal.
+        If it is binary and would fill a terminal, or several files.
     """
+    if suffix == ".shp":
+        raise click.UsageError("a shapefile is several files; choose --to zip, or name a file")
     if suffix not in _TEXT and sys.stdout.isatty():
         raise click.UsageError(
             f"{suffix.removeprefix('.').upper()} is binary and would fill the terminal; "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,12 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from alphamesh.cli.types import TableFile
 from alphamesh.io._atomic import atomic_path
 
-__all__ = ["TableFile", "write_table"]
+__all__ = ["write_table"]
 
 Columns = Mapping[str, NDArray[Any]]
+
+# What would end a cell, or begin a comment.
+_AWKWARD = re.compile(r"[,;\t\"\n\r#]")
 
 # Lines made in one go: fast, and Ctrl-C never waits long.
 _LINES = 50_000
@@ -61,7 +64,10 @@ def write_table(path: Path, columns: Columns, arrays: Columns | None = None) -> 
 
 
 def _cell(value: object) -> str:
-    """Return a number so that it reads back the same, truth as 1 or 0, text as it is."""
+    """Return a number so that it reads back the same, truth as 1 or 0, text as CSV."""
     if isinstance(value, bool):
         return str(int(value))
-    return value if isinstance(value, str) else repr(value)
+    if isinstance(value, int | float):
+        return repr(value)
+    text = "" if value is None else str(value)
+    return '"' + text.replace('"', '""') + '"' if _AWKWARD.search(text) else text

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
@@ -16,28 +15,17 @@ else:
 __all__ = [
     "AUTO",
     "RULE_OPTIONS",
-    "STREAM",
+    "AggregateType",
     "BettiType",
     "ColumnsType",
-    "ConvertedFile",
-    "FigureFile",
-    "File",
-    "FilmFile",
-    "FormatType",
-    "MeshFile",
-    "PointsFile",
     "RadiiType",
     "RadiusType",
     "Rule",
     "RuleName",
     "SourceType",
-    "TableFile",
 ]
 
 AUTO = "auto"
-
-# Standard input or output in the place of a file.
-STREAM = Path("-")
 
 
 class SourceType(ParamType):
@@ -220,137 +208,18 @@ class ColumnsType(ParamType):
         return first, second
 
 
-class File(ParamType):
-    """A file to write, in a format that its extension tells.
+class AggregateType(ParamType):
+    """A column and what to make of it, ``height:max``."""
 
-    Parameters
-    ----------
-    stream : str, optional
-        The format in which ``-`` is standard output; None if that is no such file.
-    """
-
-    name = "file"
-    what = "file"
-
-    def __init__(self, stream: str | None = None) -> None:
-        self.stream = stream
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions that are known, each with its dot."""
-        raise NotImplementedError
+    name = "aggregate"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Path:
-        """Return the path if its extension is known, or ``-`` for standard output."""
-        path = Path(value)
-        if self.stream is not None and path == STREAM:
-            return STREAM
-        known = self.formats()
-        if path.suffix.lower() not in known:
-            named = f"the extension {path.suffix!r}" if path.suffix else "no extension"
-            self.fail(
-                f"{str(path)!r} has {named}; a {self.what} ends in one of: {', '.join(known)}",
-                param,
-                ctx,
-            )
-        return path
-
-    def shell_complete(
-        self, ctx: click.Context, param: click.Parameter, incomplete: str
-    ) -> list[CompletionItem]:
-        """Let the shell look for files."""
-        return [CompletionItem(incomplete, type="file")]
-
-
-class MeshFile(File):
-    """A mesh file to write."""
-
-    what = "mesh file"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of mesh files."""
-        from alphamesh.io.meshes import MESH_FORMATS
-
-        return tuple(MESH_FORMATS)
-
-
-class FigureFile(File):
-    """A picture to write."""
-
-    what = "picture"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of pictures."""
-        return (".png", ".pdf", ".svg")
-
-
-class FilmFile(File):
-    """A film to write."""
-
-    what = "film"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of films."""
-        from alphamesh.film.film import FILM_FORMATS
-
-        return FILM_FORMATS
-
-
-class TableFile(File):
-    """A table of results to write."""
-
-    what = "table"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of tables."""
-        return (".csv", ".tsv", ".npz", ".parquet")
-
-
-class PointsFile(File):
-    """A file of points to write; ``-`` is standard output."""
-
-    what = "file of points"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of files of points."""
-        from alphamesh.cli.write_points import POINT_WRITERS
-
-        return tuple(POINT_WRITERS)
-
-
-class ConvertedFile(File):
-    """A file of points or a mesh to write."""
-
-    what = "file of points or mesh"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of both."""
-        return tuple(dict.fromkeys(PointsFile().formats() + MeshFile().formats()))
-
-
-class FormatType(ParamType):
-    """The name of a format in which files of one kind are written."""
-
-    name = "format"
-
-    def __init__(self, kind: File) -> None:
-        self.kind = kind
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> str:
-        """Return the extension, with its dot."""
-        suffix = "." + str(value).lower().removeprefix(".")
-        known = self.kind.formats()
-        if suffix not in known:
-            listed = ", ".join(name.removeprefix(".") for name in known)
-            self.fail(f"{value!r} is no format of a {self.kind.what}; formats: {listed}")
-        return suffix
-
-    def shell_complete(
-        self, ctx: click.Context, param: click.Parameter, incomplete: str
-    ) -> list[CompletionItem]:
-        """Return the formats that begin so."""
-        names = (name.removeprefix(".") for name in self.kind.formats())
-        return [CompletionItem(name) for name in names if name.startswith(incomplete)]
+    ) -> tuple[str, str]:
+        """Return the two words."""
+        if isinstance(value, tuple):
+            return value
+        column, colon, how = str(value).rpartition(":")
+        if not (colon and column and how):
+            self.fail(f"{value!r} is not a column and what to make of it, such as height:max")
+        return column, how

@@ -17,9 +17,10 @@ from alphamesh.cli.building import (
     source_argument,
 )
 from alphamesh.cli.command import Command
+from alphamesh.cli.files import TableFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.tables import TableFile, write_table
+from alphamesh.cli.tables import write_table
 
 if TYPE_CHECKING:
     from alphamesh.voronoi import Voronoi

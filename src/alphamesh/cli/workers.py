@@ -79,7 +79,7 @@ def run_tasks(
         attempts = _one_by_one if jobs == 1 else _side_by_side
         for outcome in attempts(work, tasks, stage, min(jobs, len(tasks))):
             if outcome.error is None:
-                _move(stage / outcome.task.target.name, outcome.task.target)
+                _move(stage, outcome.task.target)
             outcomes[outcome.task] = outcome
             done(len(outcomes) / len(tasks))
             if outcome.error is not None and not keep_going:
@@ -97,10 +97,14 @@ def _stage(folder: Path) -> Iterator[Path]:
         shutil.rmtree(stage, ignore_errors=True)
 
 
-def _move(made: Path, target: Path) -> None:
-    if target.exists():
-        shutil.copymode(target, made)
-    made.replace(target)
+def _move(stage: Path, target: Path) -> None:
+    """Put a file in its place; a shapefile has others beside it."""
+    for made in stage.iterdir():
+        if made.stem == target.stem:
+            final = target.with_name(made.name)
+            if final.exists():
+                shutil.copymode(final, made)
+            made.replace(final)
 
 
 def _attempt(work: Work, task: Task, stage: Path) -> Outcome:
