@@ -136,3 +136,23 @@ def test_other_columns_can_stay_with_the_vertices(points):
     np.testing.assert_array_equal(read_mesh("m.npz").point_data["height"], heights)
     ok("mesh", "t.csv", "-r", "inf", "-o", "n.npz")
     assert "height" not in read_mesh("n.npz").point_data
+
+
+def test_points_in_space_make_tetrahedra(folder):
+    points = np.random.default_rng(2).random((60, 3))
+    np.savetxt("p.csv", points, delimiter=",", header="x,y,z", comments="", fmt="%.17g")
+    args = ("p.csv", "--columns", "x,y,z")
+    out = facts("mesh", *args, "-r", "0.3", "-o", "m.npz")
+    shape = am.AlphaComplex(points).at(0.3)
+    assert (out["dimension"], out["volume"]) == (3, shape.volume)
+    assert out["tetrahedra"] == len(shape.tetrahedra) > 0
+    assert len(read_mesh("m.npz").cells["tetra"]) == out["tetrahedra"]
+    assert f"{shape.volume:.6g} m³" in ok("mesh", *args, "-r", "0.3", "--units", "m")
+    chosen = facts("mesh", *args)
+    assert chosen["radius"] == am.AlphaComplex(points).choose_radius().radius
+    table = ok("mesh", "p.csv", "--output-dir", "o", "--columns", "x,y,z").splitlines()[0]
+    assert table.split()[1:6] == ["points", "radius", "triangles", "tetrahedra", "volume"]
+    ok("filtration", *args, "-o", "f.csv")
+    assert (
+        Path("f.csv").read_text().startswith("dimension,vertex_0,vertex_1,vertex_2,vertex_3,")
+    )

@@ -160,7 +160,7 @@ def test_completion_in_bash(shell):
     assert completed("alphamesh", "mesh", "a.csv", "--rad") == {"--radius"}
     assert completed("alphamesh", "mesh", "a.csv", "--to", "v") == {"vtu", "vtk"}
     rules = completed("alphamesh", "mesh", "a.csv", "--radius", "t")
-    assert rules == {"topology", "triangle-count"}
+    assert rules == {"topology", "triangle-count", "tetrahedron-count"}
 
 
 def test_completion_scripts_of_all_shells():

@@ -183,10 +183,12 @@ def _print_facts(outcomes: Sequence[Outcome], kept: Sequence[Task], count: int) 
 def _print_summary(
     outcomes: Sequence[Outcome], kept: Sequence[Task], columns: Sequence[str]
 ) -> None:
+    made = [outcome.facts or {} for outcome in outcomes if outcome.error is None]
+    columns = [name for name in columns if any(name in facts for facts in made)]
     rows = [
         [
             outcome.task.source,
-            *(_cell((outcome.facts or {})[name]) for name in columns),
+            *(_cell((outcome.facts or {}).get(name, "")) for name in columns),
             str(outcome.task.target),
             size_text(outcome.task.target.stat().st_size),
         ]
@@ -200,7 +202,9 @@ def _print_summary(
 
 
 def _cell(value: Any) -> str:
-    return number(value) if isinstance(value, float) else f"{value:,}"
+    if isinstance(value, float):
+        return number(value)
+    return value if isinstance(value, str) else f"{value:,}"
 
 
 def _failure(outcome: Outcome) -> str:

@@ -120,7 +120,8 @@ class Job:
         if not isinstance(radius, Rule):
             return RadiusChoice(radius, "given", "Given on the command line.")
         with steps.step("Choosing the radius"):
-            return self.complex.choose_radius(radius.name, **radius.options)
+            name = None if radius.name == AUTO else radius.name
+            return self.complex.choose_radius(name, **radius.options)
 
     @property
     def duplicates(self) -> int:

@@ -139,8 +139,9 @@ _SAMPLING_OPTIONS: dict[str, dict[str, Any]] = {
 _TABLE_OPTIONS: dict[str, dict[str, Any]] = {
     "columns": {
         "type": ColumnsType(),
-        "metavar": "X,Y",
-        "help": "Table: columns by name or by number from 0.  [default: x,y]",
+        "metavar": "X,Y[,Z]",
+        "help": "Table: columns by name or by number from 0; three are points in space.  "
+        "[default: x,y]",
     },
     "file_format": {
         "metavar": "FORMAT",

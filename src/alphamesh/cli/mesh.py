@@ -23,12 +23,13 @@ from alphamesh.cli.command import Command, setting
 from alphamesh.cli.files import MeshFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.summary import area_text, length_text
+from alphamesh.cli.summary import area_text, length_text, volume_text
 from alphamesh.cli.types import SourceType
 
 if TYPE_CHECKING:
     from alphamesh.radius import RadiusChoice
     from alphamesh.shape import AlphaShape
+    from alphamesh.shape3d import AlphaShape3D
 
 __all__ = ["command"]
 
@@ -67,6 +68,7 @@ def command(
     INPUT is a mask image (points are drawn from its white pixels), a file of
     points (CSV, TSV, TXT, XYZ, NPY, NPZ, Parquet, PLY), "-" for any of these on
     standard input, or demo:NAME for a built-in shape such as demo:annulus.
+    With --columns x,y,z the points are in space, the mesh is of tetrahedra.
     Without -o, the mesh is only described. With --output-dir, a mesh of every
     INPUT is written there, under its name.
     """
@@ -94,7 +96,7 @@ def command(
 
 
 # What the summary of many files shows.
-_COLUMNS = ("points", "radius", "triangles", "area")
+_COLUMNS = ("points", "radius", "triangles", "tetrahedra", "area", "volume")
 
 
 def _mesh_file(source: str, path: Path, options: dict[str, Any]) -> dict[str, Any]:
@@ -121,7 +123,11 @@ def _made(
 
 def _saver(job: Job, shape: AlphaShape, options: dict[str, Any]) -> Callable[[Path], None]:
     """Return what writes the mesh."""
-    return partial(shape.save, point_data=job.given.table if options["keep_columns"] else None)
+    if not options["keep_columns"]:
+        return shape.save
+    if job.complex.points.shape[1] == 3:
+        raise click.UsageError("--keep-columns is for points in the plane; leave it out")
+    return partial(shape.save, point_data=job.given.table)
 
 
 def _draw(job: Job, choice: RadiusChoice, path: Path) -> None:
@@ -130,27 +136,37 @@ def _draw(job: Job, choice: RadiusChoice, path: Path) -> None:
     save_figure(plot_overview(job.complex, choice.radius), path)
 
 
-def _facts(choice: RadiusChoice, shape: AlphaShape) -> dict[str, Any]:
+def _facts(choice: RadiusChoice, shape: AlphaShape | AlphaShape3D) -> dict[str, Any]:
     """Return the summary for scripts."""
     return {
         "radius": choice.radius,
         "rule": choice.rule,
         "reason": choice.reason,
         **shape.counts,
-        "area": shape.area,
-        "perimeter": shape.perimeter,
+        **_sizes(shape),
     }
 
 
-def _lines(choice: RadiusChoice, shape: AlphaShape) -> dict[str, str]:
+def _sizes(shape: AlphaShape | AlphaShape3D) -> dict[str, float]:
+    """Return how large a shape is, in the plane or in space."""
+    from alphamesh.simplices3d import SimplexSet3D
+
+    if isinstance(shape, SimplexSet3D):
+        return {"volume": shape.volume, "surface_area": shape.surface_area}
+    return {"area": shape.area, "perimeter": shape.perimeter}
+
+
+def _lines(choice: RadiusChoice, shape: AlphaShape | AlphaShape3D) -> dict[str, str]:
     """Return the summary for people."""
-    counts = shape.counts
-    return {
-        "Radius": radius_text(choice),
-        "": choice.reason,
-        "Triangles": f"{counts['triangles']:,}",
-        "Singular edges": f"{counts['singular_edges']:,}",
-        "Isolated vertices": f"{counts['isolated_vertices']:,}",
-        "Area": area_text(shape.area),
-        "Perimeter": length_text(shape.perimeter),
+    told = ("tetrahedra", "triangles", "singular_triangles", "singular_edges")
+    counts = {
+        name.replace("_", " ").capitalize(): f"{shape.counts[name]:,}"
+        for name in (*told, "isolated_vertices")
+        if name in shape.counts and (name != "triangles" or "tetrahedra" not in shape.counts)
     }
+    texts = {"volume": volume_text, "perimeter": length_text}
+    sizes = {
+        name.replace("_", " ").capitalize(): texts.get(name, area_text)(size)
+        for name, size in _sizes(shape).items()
+    }
+    return {"Radius": radius_text(choice), "": choice.reason, **counts, **sizes}

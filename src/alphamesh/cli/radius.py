@@ -62,7 +62,7 @@ def command(source: str, rule: str, **options: Any) -> None:
     with Steps(quiet=options["quiet"]) as steps:
         job = Job.begin(source, options, steps)
         with steps.step("Choosing the radius"):
-            choice = job.complex.choose_radius(rule, **wanted)
+            choice = job.complex.choose_radius(None if rule == AUTO else rule, **wanted)
     facts, lines = _told(choice)
     job.tell(facts, lines, Outputs())
 

@@ -24,6 +24,7 @@ __all__ = [
     "print_lines",
     "print_table",
     "size_text",
+    "volume_text",
 ]
 
 _LABEL_WIDTH = 17
@@ -101,6 +102,12 @@ def area_text(value: float) -> str:
     """Return an area, with its units if --units names them."""
     units = setting("units")
     return number(value) + (f" {units}²" if units else "")
+
+
+def volume_text(value: float) -> str:
+    """Return a volume, with its units if --units names them."""
+    units = setting("units")
+    return number(value) + (f" {units}³" if units else "")
 
 
 def counted(count: int, singular: str, plural: str | None = None) -> str:

@@ -47,7 +47,7 @@ class SourceType(ParamType):
 
 
 class Rule(NamedTuple):
-    """A rule that chooses a radius, and its options."""
+    """A rule that chooses a radius, and its options; ``auto`` is the usual one."""
 
     name: str
     options: dict[str, Any]
@@ -62,19 +62,15 @@ class RadiusType(ParamType):
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> float | Rule:
         """Return a number, or a rule."""
-        from alphamesh.radius import DEFAULT_RULE, rule_names
-
         if isinstance(value, Rule | float):
             return value
         name, *options = str(value).split(":")
-        if name == AUTO:
-            name = DEFAULT_RULE
-        if name in rule_names():
+        if name in _known_rules():
             return Rule(name, dict(self._option(text, param, ctx) for text in options))
         try:
             radius = float(value)
         except ValueError:
-            rules = ", ".join((AUTO, *rule_names()))
+            rules = ", ".join(_known_rules())
             self.fail(
                 f"{value!r} is neither a number nor one of the rules: {rules}", param, ctx
             )
@@ -113,12 +109,8 @@ class RuleName(ParamType):
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> str:
         """Return the name of a rule that there is."""
-        from alphamesh.radius import DEFAULT_RULE, rule_names
-
-        if value == AUTO:
-            return DEFAULT_RULE
-        if value not in rule_names():
-            listed = ", ".join((AUTO, *rule_names()))
+        if value not in _known_rules():
+            listed = ", ".join(_known_rules())
             self.fail(f"there is no radius rule {value!r}; rules: {listed}", param, ctx)
         return str(value)
 
@@ -130,9 +122,14 @@ class RuleName(ParamType):
 
 
 def _rules_from(start: str) -> list[CompletionItem]:
+    return [CompletionItem(name) for name in _known_rules() if name.startswith(start)]
+
+
+def _known_rules() -> tuple[str, ...]:
+    """Return ``auto`` and the names of the rules, those of the plane first."""
     from alphamesh.radius import rule_names
 
-    return [CompletionItem(name) for name in (AUTO, *rule_names()) if name.startswith(start)]
+    return (AUTO, *dict.fromkeys(rule_names(2) + rule_names(3)))
 
 
 class RadiiType(ParamType):
@@ -191,21 +188,20 @@ RULE_OPTIONS: dict[str, ParamType] = {
 
 
 class ColumnsType(ParamType):
-    """Two columns, ``x,y``, by name or by number counted from 0."""
+    """Two columns, ``x,y``, or three, by name or by number counted from 0."""
 
     name = "columns"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str | int, str | int]:
-        """Return the two names or numbers."""
+    ) -> tuple[str | int, ...]:
+        """Return the names or numbers."""
         if isinstance(value, tuple):
             return value
         names = [name.strip() for name in str(value).split(",")]
-        if len(names) != 2 or not all(names):
-            self.fail(f"{value!r} is not two columns, such as x,y or 0,1", param, ctx)
-        first, second = (int(name) if name.isdigit() else name for name in names)
-        return first, second
+        if len(names) not in {2, 3} or not all(names):
+            self.fail(f"{value!r} is not two or three columns, such as x,y or 0,1,2")
+        return tuple(int(name) if name.isdigit() else name for name in names)
 
 
 class AggregateType(ParamType):
