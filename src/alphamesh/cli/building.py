@@ -30,6 +30,7 @@ from alphamesh.cli.summary import (
     size_text,
 )
 from alphamesh.cli.types import AUTO, RadiusType, Rule, SourceType
+from alphamesh.errors import DimensionError
 
 if TYPE_CHECKING:
     from alphamesh.complex import AlphaComplex
@@ -122,6 +123,14 @@ class Job:
         with steps.step("Choosing the radius"):
             name = None if radius.name == AUTO else radius.name
             return self.complex.choose_radius(name, **radius.options)
+
+    def need_plane(self) -> None:
+        """Refuse points in space, of which the command could not tell."""
+        if self.complex.points.shape[1] == 3:
+            raise DimensionError(
+                "this command is for points in the plane, and these are in space; choose two "
+                "columns with --columns, or make a mesh of them with alphamesh mesh"
+            )
 
     @property
     def duplicates(self) -> int:

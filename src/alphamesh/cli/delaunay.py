@@ -79,6 +79,7 @@ def command(
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
         job = Job.begin(source, options, steps)
+        job.need_plane()
         with steps.step("Finding neighbours"):
             made = _made(job, shape, margin, spacing)
         files = [Output(path, lambda path: _write(made, path), ".ply") for path in meshes]

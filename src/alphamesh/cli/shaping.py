@@ -9,7 +9,6 @@ import click
 
 from alphamesh.cli.building import Job, radius_option
 from alphamesh.cli.progress import Steps
-from alphamesh.errors import DimensionError
 
 if TYPE_CHECKING:
     from alphamesh.planar import PlanarShape
@@ -53,11 +52,7 @@ def shape_at(
     job: Job, options: dict[str, Any], steps: Steps
 ) -> tuple[RadiusChoice, PlanarShape]:
     """Return the radius that `options` ask for, and the shape there."""
-    if job.complex.points.shape[1] == 3:
-        raise DimensionError(
-            "the regions of points in space are not told here; choose two columns with "
-            "--columns, or make a mesh with alphamesh mesh"
-        )
+    job.need_plane()
     choice = job.choose(options["radius"], steps)
     fill, least, most = (options[name] for name in ("fill_holes", "min_area", "largest"))
     with steps.step("Finding regions"):
