@@ -29,6 +29,7 @@ from alphamesh.io._mesh_plain import (
     write_ply,
     write_stl,
 )
+from alphamesh.io._mesh_ply import read_ply
 from alphamesh.io._vertex_data import tell_of_lost_data, vertex_data
 from alphamesh.io.geo import GEO_FORMATS
 
@@ -113,7 +114,7 @@ MESH_FORMATS: dict[str, MeshFormat] = {
         "binary; isolated vertices are vertices that no face uses, singular edges are "
         "elements of their own (`edge`), which some programs skip and meshio refuses",
         write_ply,
-        _meshio_reader("ply"),
+        read_ply,
         cells=_NO_TETRA,
         cell_data=False,
     ),
@@ -209,7 +210,7 @@ def read_mesh(path: str | os.PathLike[str], *, file_format: str | None = None) -
     Points are three-dimensional, as in the files, except in NPZ. Of the numbers, those
     with one component are read. Outside of NPZ, files are read by meshio, which knows
     neither meshes without points, nor VTU and VTK files without cells, nor the edges of
-    PLY and OBJ.
+    OBJ; PLY files with edges are read without it.
 
     Parameters
     ----------
