@@ -1,7 +1,8 @@
-// Python functions for the topology of complexes in space.
+// Python functions for topology: pairs in space, connected components anywhere.
 #include <cstdint>
 
 #include "bindings.hpp"
+#include "pairing.hpp"
 #include "persistence3.hpp"
 
 namespace alphamesh {
@@ -28,12 +29,21 @@ nb::tuple persistence3_py(std::size_t n, const Ids& edges, const Values& edge_ra
                         array(std::move(pairs.voids), 2));
 }
 
+std::size_t component_count(std::size_t n, const Ids& pairs) {
+  Job job(1);
+  std::size_t count = 0;
+  run_watched(job, n, nb::none(),
+              [&] { count = count_components(n, pairs.data(), pairs.shape(0), job); });
+  return count;
+}
+
 }  // namespace
 
 void bind_persistence3(nb::module_& m) {
   m.def("persistence3", &persistence3_py, nb::arg("n"), nb::arg("edges"), nb::arg("edge_radii"),
         nb::arg("triangle_edges"), nb::arg("triangle_radii"), nb::arg("triangle_tetrahedra"),
         nb::arg("tetrahedron_radii"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("component_count", &component_count, nb::arg("n"), nb::arg("pairs"));
 }
 
 }  // namespace alphamesh

@@ -121,4 +121,17 @@ Buffer<Id> pair_hollows(const Id* cofaces, const Buffer<std::uint64_t>& order,
   return found.trimmed();
 }
 
+std::size_t count_components(std::size_t n, const Id* pairs, std::size_t count, const Job& job) {
+  DisjointSets sets(n);
+  std::size_t left = n;
+  for (std::size_t i = 0; i < count; ++i) {
+    if ((i & kPoll) == 0) job.poll();
+    const Id a = sets.root(pairs[2 * i]), b = sets.root(pairs[2 * i + 1]);
+    if (a == b) continue;
+    sets.join(std::max(a, b), std::min(a, b));
+    --left;
+  }
+  return left;
+}
+
 }  // namespace alphamesh

@@ -28,4 +28,8 @@ Buffer<std::int32_t> pair_components(std::size_t n, const std::int32_t* edges,
 Buffer<std::int32_t> pair_hollows(const std::int32_t* cofaces, const Buffer<std::uint64_t>& order,
                                   const double* cell_radii, std::size_t cells, const Job& job);
 
+// The number of sets that n single numbers become when each of the `count` pairs is joined.
+std::size_t count_components(std::size_t n, const std::int32_t* pairs, std::size_t count,
+                             const Job& job);
+
 }  // namespace alphamesh
