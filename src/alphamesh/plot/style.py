@@ -49,6 +49,8 @@ COLORS: Mapping[str, str] = {
     "corners": "#0b4f8a",
     "components": "#0b4f8a",
     "holes": "#d55e00",
+    "loops": "#d55e00",
+    "voids": "#1b8a5a",
     "radius": "#b0127b",
     "diagonal": "#c9ced6",
     "title": "#22262b",
