@@ -379,3 +379,22 @@ def test_verdict_of_made_up_results_sets_the_exit_code(
     module("results").write_results(made_up(), file)
     assert main(["--load", str(file), "--verdict", "--quiet"]) == 1
     assert "not measured" in capsys.readouterr().out
+
+
+# -- persistence ---------------------------------------------------------------------------
+
+
+def test_tiny_run_of_persistence_measures_the_plane_and_space(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert module("persistence").main(["--tiny"]) == 0
+    out = capsys.readouterr().out
+    for where in ("in the plane", "in space"):
+        assert f"{where} (microseconds per point, median)" in out
+        assert f"{where}: pairs, time per point" in out
+    # With gudhi, its diagrams are compared, too; without it nothing is said to pass.
+    left_out = "gudhi is not installed" in out
+    assert out.count("gudhi over alphamesh: not measured") == (2 if left_out else 0)
+    differences = [line for line in out.splitlines() if "difference of deaths" in line]
+    assert len(differences) == 2
+    assert all(line.startswith("FAIL" if left_out else "pass") for line in differences)

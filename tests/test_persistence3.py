@@ -46,6 +46,7 @@ CLOUDS = {
     "torus": torus(400),
     "sphere": sphere(300),
     "voxels": voxels(),
+    "hub": np.concatenate((np.zeros((1, 3)), sphere(200))),
     "plane": RNG.random((200, 2)) @ PLANE,
     "grid in a plane": np.array(list(product(range(7), range(6), [2])), dtype=float),
     "line": np.outer(RNG.integers(0, 50, 20), [1.0, 2.0, -1.0]),
@@ -72,7 +73,7 @@ def test_pairs_are_those_of_matrix_reduction(points):
     check_pairs(complex_of(points).persistence())
 
 
-@pytest.mark.parametrize("name", ["random", "grid", "torus", "voxels", "grid in a plane"])
+@pytest.mark.parametrize("name", ["random", "grid", "torus", "hub", "grid in a plane"])
 def test_pairs_of_larger_clouds_are_those_of_matrix_reduction(name):
     check_pairs(am.AlphaComplex(CLOUDS[name][:250]).persistence())
 
@@ -307,3 +308,27 @@ def test_progress_rises_to_one_and_an_error_in_it_ends_the_work():
 
     with pytest.raises(RuntimeError, match="enough"):
         am.persistence(am.filtration(built.points), progress=stop)
+
+
+# From the shell
+
+
+def test_the_command_tells_of_loops_and_voids(tmp_path):
+    from alphamesh.cli.persistence import _told, _write
+
+    found = am.AlphaComplex(CLOUDS["sphere"]).persistence()
+    facts, lines = _told(found)
+    components, loops, voids = found.diagrams()
+    assert (facts["components"], facts["loops"], facts["voids"]) == (
+        len(components),
+        len(loops),
+        len(voids),
+    )
+    longest = voids[np.argmax(voids[:, 1] - voids[:, 0])]
+    assert np.array_equal(facts["longest_voids"][0], longest)
+    assert {"Loops", "Voids", "Longest loops", "Longest voids"} < set(lines)
+    _write(found, True, tmp_path / "pairs.csv")
+    rows = np.loadtxt(tmp_path / "pairs.csv", delimiter=",", skiprows=1)
+    squares = found.diagrams(squared=True)
+    assert np.array_equal(rows[:, 0], np.repeat([0, 1, 2], [len(d) for d in squares]))
+    assert np.array_equal(rows[:, 1:], np.concatenate(squares))

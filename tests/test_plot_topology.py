@@ -131,3 +131,21 @@ def test_degenerate_clouds_have_charts(points):
     pairs = am.AlphaComplex(points).persistence()
     for draw in (plot_diagram, plot_barcode, plot_betti):
         assert figure_bytes(draw(pairs, radius=0.5).figure, dpi=30).startswith(b"\x89PNG")
+
+
+def test_charts_of_classes_in_space_have_loops_and_voids():
+    rng = np.random.default_rng(4)
+    sphere = rng.standard_normal((800, 3))
+    sphere /= np.linalg.norm(sphere, axis=1)[:, np.newaxis]
+    pairs = am.AlphaComplex(sphere).persistence()
+    for plot in (plot_diagram, plot_barcode, plot_betti):
+        drawing = plot(pairs, radius=0.5)
+        assert {"components", "loops", "voids", "radius"} <= set(drawing.artists)
+        assert "holes" not in drawing.artists
+        legend = drawing.axes.get_legend()
+        assert [text.get_text()[:4] for text in legend.get_texts()] == ["comp", "loop", "void"]
+    assert "r = 0.5: 1 component, 0 loops, 1 void" in texts(drawing)
+    (bars,) = plot_barcode(pairs).artists["voids"]
+    (birth, _), (death, _) = bars.get_segments()[0]
+    longest = pairs.diagram(2)[np.argmax(np.diff(pairs.diagram(2), axis=1))]
+    assert [birth, death] == longest.tolist()
