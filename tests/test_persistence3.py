@@ -8,12 +8,12 @@ from itertools import pairwise, product
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 
 import alphamesh as am
-from alphamesh.errors import CoordinateRangeError, DimensionError, ParameterError
+from alphamesh.errors import DimensionError, ParameterError
 from reduction import check_pairs, pair_set
-from strategies3 import clouds3
+from strategies3 import clouds3, complex_of
 
 RNG = np.random.default_rng(23)
 
@@ -57,15 +57,6 @@ CLOUDS = {
 @pytest.fixture(name="ring", scope="module")
 def make_ring():
     return am.AlphaComplex(torus(2000))
-
-
-def complex_of(points):
-    """Return the complex of a nasty cloud; not if its spheres are beyond float64."""
-    try:
-        return am.AlphaComplex(points)
-    except CoordinateRangeError as error:
-        assume("too large for float64" not in str(error))
-        raise
 
 
 @given(clouds3())

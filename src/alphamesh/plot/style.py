@@ -47,6 +47,7 @@ COLORS: Mapping[str, str] = {
     "isolated_vertices": "#b0127b",
     "frame_points": "#a3abb7",
     "corners": "#0b4f8a",
+    "cycles": "#d55e00",
     "components": "#0b4f8a",
     "holes": "#d55e00",
     "loops": "#d55e00",
