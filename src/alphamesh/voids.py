@@ -54,7 +54,8 @@ class Shells(Record):
         return (self[i] for i in range(len(self)))
 
     def __repr__(self) -> str:
-        return f"<Shells: {len(self.triangles):,} triangles around {len(self):,} voids>"
+        voids = f"{len(self):,} void{'s' * (len(self) != 1)}"
+        return f"<Shells: {len(self.triangles):,} triangles around {voids}>"
 
 
 def void_shells(filtration: Filtration3D, voids: IntArray, classes: ArrayLike) -> Shells:
