@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+import json
 import math
 from itertools import pairwise, product
 
@@ -305,21 +306,25 @@ def test_progress_rises_to_one_and_an_error_in_it_ends_the_work():
 
 
 def test_the_command_tells_of_loops_and_voids(tmp_path):
-    from alphamesh.cli.persistence import _told, _write
+    testing = pytest.importorskip("click.testing")
+    pytest.importorskip("rich")
+    pytest.importorskip("matplotlib")
+    from alphamesh.cli.app import app
 
-    found = am.AlphaComplex(CLOUDS["sphere"]).persistence()
-    facts, lines = _told(found)
-    components, loops, voids = found.diagrams()
-    assert (facts["components"], facts["loops"], facts["voids"]) == (
-        len(components),
-        len(loops),
-        len(voids),
-    )
-    longest = voids[np.argmax(voids[:, 1] - voids[:, 0])]
-    assert np.array_equal(facts["longest_voids"][0], longest)
-    assert {"Loops", "Voids", "Longest loops", "Longest voids"} < set(lines)
-    _write(found, True, tmp_path / "pairs.csv")
-    rows = np.loadtxt(tmp_path / "pairs.csv", delimiter=",", skiprows=1)
-    squares = found.diagrams(squared=True)
+    cloud, table, picture = (tmp_path / name for name in ("a.npy", "pairs.csv", "bars.png"))
+    np.save(cloud, CLOUDS["sphere"])
+    words = ["persistence", cloud, "--squared", "-o", table, "--plot", picture, "-r", "0.5"]
+    words = [str(word) for word in (*words, "--plot-as", "barcode")]
+    told = testing.CliRunner().invoke(app, words)
+    assert told.exit_code == 0, told.output
+    assert "\nLoops " in told.stdout and "\nLongest voids " in told.stdout
+    assert picture.stat().st_size > 5000
+    squares = am.AlphaComplex(CLOUDS["sphere"]).persistence().diagrams(squared=True)
+    rows = np.loadtxt(table, delimiter=",", skiprows=1)
     assert np.array_equal(rows[:, 0], np.repeat([0, 1, 2], [len(d) for d in squares]))
     assert np.array_equal(rows[:, 1:], np.concatenate(squares))
+    facts = json.loads(testing.CliRunner().invoke(app, [*words[:2], "--json"]).stdout)
+    assert [facts[name] for name in ("components", "loops", "voids")] == list(map(len, squares))
+    longest = max(facts["longest_voids"], key=lambda life: life[1] - life[0])
+    assert facts["longest_voids"][0] == longest
+    assert longest[1] == pytest.approx(1.0)
