@@ -177,8 +177,14 @@ Pairs3 persistence3(const FiltrationView3& view, Job& job) {
     out.loops =
         pair_hollows(cofaces.data(), edge_order, view.triangle_radii, view.triangle_count, job);
   } else {
-    const Remaining edges = remaining(edge_order, out.components, 1);
-    const Remaining triangles = remaining(triangle_order, out.voids, 0);
+    Remaining edges, triangles;
+    job.run(2, [&](std::size_t task) {
+      if (task == 0) {
+        triangles = remaining(triangle_order, out.voids, 0);
+      } else {
+        edges = remaining(edge_order, out.components, 1);
+      }
+    });
     out.loops = pair_loops(edges, triangles, view.triangle_edges, job, 0.5);
   }
   return out;
