@@ -149,6 +149,7 @@ NB_MODULE(_core, m) {
   m.def("incircle2", &incircle2, nb::arg("points"), nb::arg("perturb"));
   bind_incidence3(m);
   bind_outlines2(m);
+  bind_persistence3(m);
   bind_space3(m);
   bind_voronoi2(m);
   m.def("self_test", &self_test);

@@ -27,6 +27,7 @@ class DisjointSets {
     }
     return i;
   }
+  void expect(Id i) const { prefetch(parent_.data() + i); }
   void join(Id young, Id old) { parent_[static_cast<std::size_t>(young)] = old; }
 
  private:

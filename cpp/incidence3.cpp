@@ -1,7 +1,6 @@
 #include "incidence3.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace alphamesh {
 namespace {
@@ -10,64 +9,49 @@ using Id = std::int32_t;
 
 std::size_t at(Id i) { return static_cast<std::size_t>(i); }
 
-// Rows in the order in which edges, sorted in space, name them: neighbours in space are
-// neighbours in memory. Merged rows, which no edge has, keep -1.
-Buffer<Id> ranks_of_rows(const ComplexView3& view) {
-  Buffer<Id> rank(view.n);
-  std::fill(rank.begin(), rank.end(), -1);
-  Id next = 0;
-  for (std::size_t i = 0; i < 2 * view.edge_count; ++i) {
-    Id& r = rank[at(view.edges[i])];
-    if (r < 0) r = next++;
-  }
-  return rank;
-}
-
-// Edges by the lower rank of their ends, then by the higher one.
+// Edges by their lower row. Most rows are the lower one of few edges; of those that are
+// that of many, the other ends are sorted.
 class EdgeTable {
  public:
-  EdgeTable(const ComplexView3& view, Job& job)
-      : rank_(ranks_of_rows(view)), start_(view.n + 1), entry_(view.edge_count) {
+  EdgeTable(const ComplexView3& view, Job& job) : start_(view.n + 1), entry_(view.edge_count) {
     std::fill(start_.begin(), start_.end(), 0);
-    for (std::size_t e = 0; e < view.edge_count; ++e) ++start_[ends(view.edges + 2 * e).first + 1];
+    for (std::size_t e = 0; e < view.edge_count; ++e) ++start_[at(view.edges[2 * e]) + 1];
     for (std::size_t v = 0; v < view.n; ++v) start_[v + 1] += start_[v];
-    Buffer<Id> next(view.n);
-    std::copy(start_.begin(), start_.end() - 1, next.begin());
-    for (std::size_t e = 0; e < view.edge_count; ++e) {
+    // From the ends backwards: start_[v + 1] moves to where the edges of v begin.
+    for (std::size_t e = view.edge_count; e-- > 0;) {
       if ((e & 0xffff) == 0) job.poll();
-      const auto [low, high] = ends(view.edges + 2 * e);
-      entry_[at(next[low]++)] = {static_cast<Id>(high), static_cast<Id>(e)};
+      Id& next = start_[at(view.edges[2 * e]) + 1];
+      entry_[at(--next)] = {view.edges[2 * e + 1], static_cast<Id>(e)};
     }
+    for (std::size_t v = 0; v < view.n; ++v) start_[v] = start_[v + 1];
+    start_[view.n] = static_cast<Id>(view.edge_count);
     const Parts parts(view.n, job);
     job.run(parts.count(), [&](std::size_t part) {
       for (std::size_t v = parts.begin(part); v < parts.end(part); ++v) {
-        std::sort(entry_.begin() + start_[v], entry_.begin() + start_[v + 1]);
+        Entry* first = entry_.data() + start_[v];
+        Entry* last = entry_.data() + start_[v + 1];
+        if (last - first > kFew) std::sort(first, last);
       }
     });
   }
 
+  // The edge from row u to row v > u, -1 if there is none.
   Id find(Id u, Id v) const {
-    const Id pair[2] = {u, v};
-    if (rank_[at(u)] < 0 || rank_[at(v)] < 0) return -1;
-    const auto [low, high] = ends(pair);
-    const Entry wanted{static_cast<Id>(high), 0};
-    const Entry* end = entry_.data() + start_[low + 1];
-    const Entry* found = std::lower_bound(entry_.data() + start_[low], end, wanted);
-    return found != end && found->end == wanted.end ? found->edge : -1;
+    const Entry* entry = entry_.data() + start_[at(u)];
+    const Entry* end = entry_.data() + start_[at(u) + 1];
+    if (end - entry > kFew) entry = std::lower_bound(entry, end, Entry{v, 0});
+    while (entry != end && entry->end != v) ++entry;
+    return entry != end ? entry->edge : -1;
   }
 
  private:
   struct Entry {
-    Id end, edge;  // the higher end, and the edge
+    Id end, edge;
     bool operator<(const Entry& other) const { return end < other.end; }
   };
+  static constexpr std::ptrdiff_t kFew = 64;
 
-  std::pair<std::size_t, std::size_t> ends(const Id* edge) const {
-    const std::size_t a = at(rank_[at(edge[0])]), b = at(rank_[at(edge[1])]);
-    return {std::min(a, b), std::max(a, b)};
-  }
-
-  Buffer<Id> rank_, start_;
+  Buffer<Id> start_;
   Buffer<Entry> entry_;
 };
 

@@ -12,6 +12,15 @@ namespace alphamesh {
 void* allocate(std::size_t bytes);
 void release(void* p, std::size_t bytes) noexcept;
 
+// Asks for the memory at p ahead of its use; changes no result.
+inline void prefetch(const void* p) {
+#ifdef __GNUC__
+  __builtin_prefetch(p);
+#else
+  static_cast<void>(p);
+#endif
+}
+
 // Touching fresh pages costs a fifth to a third of a run on large clouds. While an object
 // of this class lives, large blocks that are released are kept and given out again, in
 // parts if need be; with the last one they go back to the system.

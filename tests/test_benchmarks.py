@@ -379,3 +379,27 @@ def test_verdict_of_made_up_results_sets_the_exit_code(
     module("results").write_results(made_up(), file)
     assert main(["--load", str(file), "--verdict", "--quiet"]) == 1
     assert "not measured" in capsys.readouterr().out
+
+
+# -- persistence ---------------------------------------------------------------------------
+
+
+def test_tiny_run_of_persistence_measures_the_plane_and_space(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert module("persistence").main(["--tiny"]) == 0
+    out = capsys.readouterr().out
+    for where in ("in the plane", "in space"):
+        assert f"points {where}: filtration and pairs (ms, median)" in out
+        assert f"\n{where} (microseconds per point, median)" in out
+    # With gudhi, diagrams are compared, too; times of small clouds promise nothing.
+    verdicts = [line for line in out.splitlines() if line.startswith(("pass", "FAIL"))]
+    assert len(verdicts) == (0 if "gudhi is not installed" in out else 2)
+    assert all("difference of deaths" in line for line in verdicts)
+
+
+def test_a_difference_from_gudhi_is_no_pass(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("gudhi")
+    persistence = module("persistence")
+    monkeypatch.setattr(persistence, "_difference", lambda *_: 0.1)
+    assert persistence.main(["--tiny", "--columns", "2"]) == 1

@@ -11,6 +11,7 @@ from hypothesis import given
 import alphamesh as am
 from alphamesh.errors import ParameterError
 from complexes import complexes
+from reduction import check_pairs
 
 RNG = np.random.default_rng(17)
 CLOUDS = {
@@ -24,38 +25,6 @@ CLOUDS = {
 }
 
 
-def ordered_simplices(filtration):
-    """Return all simplices in the order of the filtration."""
-    found = []
-    for k, (rows, radii) in enumerate(zip(filtration.simplices, filtration.radii, strict=True)):
-        found += [
-            (r, k, i, tuple(row))
-            for i, (row, r) in enumerate(zip(rows.tolist(), radii.tolist(), strict=True))
-        ]
-    return sorted(found)
-
-
-def reduced_pairs(filtration):
-    """Return births and deaths by reduction of the boundary matrix over Z/2."""
-    simplices = ordered_simplices(filtration)
-    position = {simplex: i for i, (_, _, _, simplex) in enumerate(simplices)}
-    by_pivot, pairs, creators = {}, [], set()
-    for j, (radius, k, _, simplex) in enumerate(simplices):
-        column = (
-            {position[simplex[:i] + simplex[i + 1 :]] for i in range(k + 1)} if k else set()
-        )
-        while column and max(column) in by_pivot:
-            column ^= by_pivot[max(column)]
-        if column:
-            pivot = max(column)
-            by_pivot[pivot] = column
-            creators.discard(pivot)
-            pairs.append((simplices[pivot][1], simplices[pivot][0], radius))
-        else:
-            creators.add(j)
-    return pairs, [simplices[j][1] for j in creators]
-
-
 def multiset(rows):
     rows = np.asarray(rows, dtype=float).reshape(-1, 2)
     return rows[np.lexsort((rows[:, 1], rows[:, 0]))]
@@ -63,18 +32,7 @@ def multiset(rows):
 
 @given(complexes())
 def test_pairs_are_those_of_matrix_reduction(cx):
-    pairs, stay = reduced_pairs(cx.filtration)
-    found = cx.persistence()
-    assert stay == [0] * len(found.essential[0])
-    for k in (0, 1):
-        theirs = multiset([(birth, death) for dim, birth, death in pairs if dim == k])
-        mine = found.diagram(k, zero_length=True)
-        assert np.array_equal(mine[np.isfinite(mine[:, 1])], theirs)
-    for k, rows in enumerate(found.pairs):
-        # A creator is destroyed once, and no simplex both creates and destroys.
-        assert len(np.unique(rows[:, 0])) == len(rows)
-        if k:
-            assert not set(found.pairs[k - 1][:, 1].tolist()) & set(rows[:, 0].tolist())
+    check_pairs(cx.persistence())
 
 
 @pytest.mark.parametrize("name", CLOUDS)
@@ -103,9 +61,18 @@ def test_betti_numbers_add_up_to_the_euler_characteristic(cx):
     numbers = found.betti_numbers(radii)
     curve = found.euler_curve()
     for radius, (b0, b1) in zip(radii.tolist(), numbers.tolist(), strict=True):
-        assert b0 - b1 == cx.at(radius).euler_characteristic
+        shape = cx.at(radius)
+        assert shape.betti == (b0, b1)
+        assert b0 - b1 == shape.euler_characteristic
         step = int(np.searchsorted(curve.radii, radius, side="right")) - 1
         assert curve.values[step] == b0 - b1
+
+
+def test_betti_numbers_of_chosen_triangles():
+    shape = am.AlphaComplex(am.demo_cloud("target", 3000, seed=2)).at()
+    for count in (1, 2, 3):
+        kept = shape.filtered(keep_largest=count)
+        assert kept.betti == (count, len(kept.holes))
 
 
 def test_betti_numbers_of_a_grid_of_squares():

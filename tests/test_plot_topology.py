@@ -10,8 +10,15 @@ pytest.importorskip("matplotlib")
 from matplotlib.figure import Figure
 
 import alphamesh as am
-from alphamesh.errors import ParameterError
-from alphamesh.plot import figure_bytes, plot_barcode, plot_betti, plot_diagram
+from alphamesh.errors import DimensionError, ParameterError
+from alphamesh.plot import (
+    figure_bytes,
+    plot_barcode,
+    plot_betti,
+    plot_complex,
+    plot_cycles,
+    plot_diagram,
+)
 
 
 @pytest.fixture(scope="module")
@@ -131,3 +138,40 @@ def test_degenerate_clouds_have_charts(points):
     pairs = am.AlphaComplex(points).persistence()
     for draw in (plot_diagram, plot_barcode, plot_betti):
         assert figure_bytes(draw(pairs, radius=0.5).figure, dpi=30).startswith(b"\x89PNG")
+
+
+def test_charts_of_classes_in_space_have_loops_and_voids():
+    rng = np.random.default_rng(4)
+    sphere = rng.standard_normal((800, 3))
+    sphere /= np.linalg.norm(sphere, axis=1)[:, np.newaxis]
+    pairs = am.AlphaComplex(sphere).persistence()
+    for plot in (plot_diagram, plot_barcode, plot_betti):
+        drawing = plot(pairs, radius=0.5)
+        assert {"components", "loops", "voids", "radius"} <= set(drawing.artists)
+        assert "holes" not in drawing.artists
+        legend = drawing.axes.get_legend()
+        assert [text.get_text()[:4] for text in legend.get_texts()] == ["comp", "loop", "void"]
+    assert "r = 0.5: 1 component, 0 loops, 1 void" in texts(drawing)
+    (bars,) = plot_barcode(pairs).artists["voids"]
+    (birth, _), (death, _) = bars.get_segments()[0]
+    longest = pairs.diagram(2)[np.argmax(np.diff(pairs.diagram(2), axis=1))]
+    assert [birth, death] == longest.tolist()
+
+
+def test_cycles_are_drawn_around_the_holes_on_the_mesh(alpha, pairs):
+    radius = alpha.choose_radius(holes=5).radius
+    drawing = plot_cycles(pairs, radius)
+    mesh = plot_complex(alpha.at(radius))
+    assert set(drawing.artists) == {*mesh.artists, "cycles"}
+    rings = list(pairs.holes(pairs.alive(radius)))
+    assert len(rings) >= 5
+    drawn = [
+        {tuple(place) for path in artist.get_paths() for place in path.vertices.tolist()}
+        for artist in drawing.artists["cycles"]
+    ]
+    assert drawn == [{tuple(place) for place in alpha.points[ring].tolist()} for ring in rings]
+    assert len(plot_cycles(pairs, radius, most=1).artists["cycles"]) < len(drawn)
+    with pytest.raises(ParameterError, match="most must be"):
+        plot_cycles(pairs, radius, most=0)
+    with pytest.raises(DimensionError, match="in the plane alone"):
+        plot_cycles(am.AlphaComplex(np.eye(3)).persistence(), 1.0)

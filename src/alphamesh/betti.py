@@ -25,7 +25,7 @@ class StepCurve(NamedTuple):
     ----------
     radii : (k,) float64
         Ascending, without repeats; the function changes at each but the first.
-    values : (k,) or (k, 2) int64
+    values : (k,), (k, 2) or (k, 3) int64
         The value from each radius up to, but not including, the next; the last value
         holds for ever.
     """

@@ -14,10 +14,10 @@ from alphamesh.errors import ParameterError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from alphamesh._arrays import CountArray, IntArray
+    from alphamesh._arrays import CountArray, FloatArray, IntArray
     from alphamesh.filtration import Filtration
 
-__all__ = ["Rings", "hole_rings"]
+__all__ = ["Rings", "checked_classes", "hole_rings", "hollow_cells", "rings_of"]
 
 # A triangle, and the corner from which a step leaves along one of its sides.
 _Place: TypeAlias = tuple[int, int]
@@ -37,10 +37,11 @@ class Rings(Record):
     offsets : (k + 1,) int64
         Ring i is ``vertices[offsets[i]:offsets[i + 1]]``.
     vertices : (m,) int32
-        Rows of the points. The hole lies on the left: the ring around it runs
-        counter-clockwise, rings within it run clockwise.
+        Rows of the points. Where the rings are those around holes in the plane, the hole
+        lies on the left: the ring around it runs counter-clockwise, rings within it run
+        clockwise.
     classes : (k,) int32
-        Which hole each ring belongs to.
+        Which class, a hole or a loop, each ring belongs to.
     """
 
     offsets: CountArray
@@ -84,7 +85,7 @@ def hole_rings(filtration: Filtration, loops: IntArray, classes: ArrayLike) -> R
     ParameterError
         If there is no such class.
     """
-    wanted = _checked_classes(classes, len(loops))
+    wanted = checked_classes(classes, len(loops))
     rings: list[list[int]] = []
     owners: list[int] = []
     neighbors = _Neighbors(filtration) if len(wanted) else None
@@ -93,6 +94,11 @@ def hole_rings(filtration: Filtration, loops: IntArray, classes: ArrayLike) -> R
         found = neighbors.rings_of(*loops[number].tolist())
         rings += found
         owners += [number] * len(found)
+    return rings_of(rings, owners)
+
+
+def rings_of(rings: list[list[int]], owners: list[int]) -> Rings:
+    """Return lists of rows, each with the class it belongs to, as one record."""
     lengths = [len(ring) for ring in rings]
     flat = [row for ring in rings for row in ring]
     return Rings(
@@ -102,18 +108,62 @@ def hole_rings(filtration: Filtration, loops: IntArray, classes: ArrayLike) -> R
     )
 
 
-def _checked_classes(classes: ArrayLike, count: int) -> CountArray:
+def checked_classes(classes: ArrayLike, count: int, dimension: int = 1) -> CountArray:
+    """Return `classes` as row numbers of ``pairs[dimension]``, or say what is wrong with them.
+
+    Raises
+    ------
+    ParameterError
+        If they are no numbers of rows, or there is no such row.
+    """
     wanted = np.atleast_1d(np.asarray(classes))
     if wanted.size == 0:
         return np.empty(0, dtype=np.int64)
     if wanted.ndim != 1 or wanted.dtype.kind not in "iu":
         raise ParameterError(
-            f"classes must be rows of pairs[1], as alive(radius) gives them; got {classes!r}"
+            f"classes must be rows of pairs[{dimension}], as alive(radius, {dimension}) gives "
+            f"them; got {classes!r}"
         )
     wrong = wanted[(wanted < 0) | (wanted >= count)]
     if len(wrong):
-        raise ParameterError(f"there is no class {wrong[0]}: pairs[1] has {count} rows")
+        raise ParameterError(
+            f"there is no class {wrong[0]}: pairs[{dimension}] has {count} rows"
+        )
     return wanted.astype(np.int64)
+
+
+def hollow_cells(
+    facet_radii: FloatArray, cofaces: IntArray, sides: IntArray, creator: int, destroyer: int
+) -> IntArray:
+    """Return the cells that a hole or void covers when its last facet has just joined.
+
+    Parameters
+    ----------
+    facet_radii : (F,) float64
+    cofaces : (F, 2) int32
+        The cells of each facet, -1 for none.
+    sides : (C, d + 1) int32
+        The facets of each cell.
+    creator, destroyer : int
+        The facet that closes the hollow off, the cell that fills it at last.
+
+    Returns
+    -------
+    (m,) int32, ascending
+    """
+    birth = facet_radii[creator]
+    seen = {destroyer}
+    frontier = np.array([destroyer], dtype=np.int32)
+    while len(frontier):
+        around = sides.take(frontier, axis=0).ravel()
+        value = facet_radii.take(around)
+        # Facets of equal value join in their order.
+        open_ = (value > birth) | ((value == birth) & (around > creator))
+        reached = np.unique(cofaces.take(around.compress(open_), axis=0))
+        fresh = [cell for cell in reached.tolist() if cell not in seen]
+        seen.update(fresh)
+        frontier = np.array(fresh, dtype=np.int32)
+    return np.array(sorted(seen), dtype=np.int32)
 
 
 class _Neighbors:
@@ -125,7 +175,11 @@ class _Neighbors:
 
     def rings_of(self, edge: int, triangle: int) -> list[list[int]]:
         """Return the rings around the hole that `edge` closes off and `triangle` fills."""
-        corners = self._corners_of(self._region(edge, triangle))
+        filtration = self._filtration
+        region = hollow_cells(
+            filtration.radii[1], filtration.edge_triangles, self._sides, edge, triangle
+        )
+        corners = self._corners_of(region)
         starts = {place: end for place, (end, beyond) in corners.items() if beyond < 0}
         rings = []
         while starts:
@@ -137,23 +191,6 @@ class _Neighbors:
             rings.append(ring)
         rings.sort(key=self._leftmost)
         return rings
-
-    def _region(self, edge: int, triangle: int) -> IntArray:
-        """Return the triangles that the hole covers when `edge` has just joined."""
-        radii, cofaces = self._filtration.radii[1], self._filtration.edge_triangles
-        birth = radii[edge]
-        seen = {triangle}
-        frontier = np.array([triangle], dtype=np.int32)
-        while len(frontier):
-            sides = self._sides.take(frontier, axis=0).ravel()
-            value = radii.take(sides)
-            # Edges of equal value join in their order.
-            open_ = (value > birth) | ((value == birth) & (sides > edge))
-            reached = np.unique(cofaces.take(sides.compress(open_), axis=0))
-            fresh = [t for t in reached.tolist() if t not in seen]
-            seen.update(fresh)
-            frontier = np.array(fresh, dtype=np.int32)
-        return np.array(sorted(seen), dtype=np.int32)
 
     def _corners_of(self, region: IntArray) -> dict[_Place, _Step]:
         """Return, for each corner of the region's triangles, the step that leaves it.

@@ -22,6 +22,7 @@ from alphamesh.filtration3d import Filtration3D, filtration_in_space
 from alphamesh.measures import scaled_points, triangle_areas
 from alphamesh.points import (
     as_cloud,
+    at_positions,
     coordinate_error,
     merged_rows,
     refuse_overflow,
@@ -169,11 +170,7 @@ class Filtration(Record):
                 threads,
                 progress,
             )
-            if len(vertices) < len(self.points):
-                # The core counts rows of points; duplicates have no place of their own.
-                components = components.copy()
-                components[:, 0] = np.searchsorted(vertices[:, 0], components[:, 0])
-                read_only(components)
+            components = at_positions(components, vertices, len(self.points))
             known = vars(self)["_pairs"] = components, loops
         return known
 

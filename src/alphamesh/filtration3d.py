@@ -11,6 +11,7 @@ import numpy as np
 from alphamesh import _kernels
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.space import alpha3, tetrahedron_triangles3, triangle_edges3
+from alphamesh._kernels.topology import persistence3
 from alphamesh.classify import (
     Intervals,
     face_intervals,
@@ -21,6 +22,7 @@ from alphamesh.delaunay3d import Delaunay3D, oriented_tetrahedra, triangulation
 from alphamesh.measures import tetrahedron_volumes, triangle_areas
 from alphamesh.points import (
     as_cloud,
+    at_positions,
     coordinate_error,
     merged_rows,
     refuse_overflow,
@@ -164,6 +166,41 @@ class Filtration3D(Record):
         for edges in self.triangle_edges.T:
             np.minimum.at(least, edges, self.radii[2])
         return read_only(least)
+
+    def pairs(
+        self, *, threads: int | None = None, progress: Progress | None = None
+    ) -> tuple[IntArray, IntArray, IntArray]:
+        """Return the simplices that begin and end each component, each loop and each void.
+
+        Parameters
+        ----------
+        threads : int, optional
+            Threads to use; by default one for each usable CPU.
+        progress : callable, optional
+            Called with the fraction that is done, from 0 to 1.
+
+        Returns
+        -------
+        components, loops, voids : (k, 2), (l, 2), (m, 2) int32
+            Positions of creator and destroyer, see
+            :class:`~alphamesh.persistence.Persistence`. Kept for the next call.
+        """
+        known: tuple[IntArray, IntArray, IntArray] | None = vars(self).get("_pairs")
+        if known is None:
+            components, loops, voids = persistence3(
+                len(self.points),
+                self.simplices[1],
+                self.radii[1],
+                self.triangle_edges,
+                self.radii[2],
+                self.triangle_tetrahedra,
+                self.radii[3],
+                threads,
+                progress,
+            )
+            components = at_positions(components, self.simplices[0], len(self.points))
+            known = vars(self)["_pairs"] = components, loops, voids
+        return known
 
     def __repr__(self) -> str:
         counts = [f"{len(rows):,}" for rows in self.simplices]

@@ -1,4 +1,4 @@
-"""Persistence: when components and holes of the growing complex come and go."""
+"""Persistence: when components, loops and voids of the growing complex come and go."""
 
 from __future__ import annotations
 
@@ -11,14 +11,18 @@ import numpy as np
 from alphamesh._arrays import Record, read_only
 from alphamesh.betti import StepCurve, alive_counts, checked_radii, steps_of
 from alphamesh.cycles import Rings, hole_rings
-from alphamesh.errors import ParameterError
+from alphamesh.errors import DimensionError, ParameterError
 from alphamesh.filtration import Filtration
+from alphamesh.filtration3d import Filtration3D
+from alphamesh.loops import shortest_loops
+from alphamesh.voids import Shells, void_shells
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray
     from alphamesh._kernels import Progress
+    from alphamesh.filtration import AnyFiltration
 
 __all__ = ["Persistence", "persistence"]
 
@@ -27,21 +31,23 @@ __all__ = ["Persistence", "persistence"]
 class Persistence(Record):
     """The classes of homology of a filtration over Z/2: which simplices begin and end them.
 
-    A class of dimension 0 is a component, one of dimension 1 a loop: in the plane, a hole.
-    It is born when its creator joins the growing complex and dies when its destroyer does
-    [1]_. Simplices of equal value join by dimension, then in their order in the
-    filtration. Of two components that meet, the one whose point has the lower row stays.
+    A class of dimension 0 is a component, one of dimension 1 a loop (in the plane, a
+    hole), one of dimension 2 a void. It is born when its creator joins the growing
+    complex and dies when its destroyer does [1]_. Simplices of equal value join by
+    dimension, then in their order in the filtration. Of two components that meet, the one
+    whose point has the lower row stays.
 
     Attributes
     ----------
-    filtration : Filtration
+    filtration : Filtration or Filtration3D
     pairs : tuple of (p_k, 2) int32
         For each dimension k = 0, 1, 2 the classes that die, in no particular order:
         position of the creator in ``filtration.simplices[k]``, of the destroyer in
-        ``filtration.simplices[k + 1]``. Pairs of equal value are among them.
+        ``filtration.simplices[k + 1]``. Pairs of equal value are among them. In the plane
+        there are none of dimension 2.
     essential : tuple of (e_k,) int32
         For each dimension the creators of classes that never die, as positions in
-        ``filtration.simplices[k]``: in the plane one component, unless the cloud is empty.
+        ``filtration.simplices[k]``: one component, unless the cloud is empty.
 
     References
     ----------
@@ -49,30 +55,33 @@ class Persistence(Record):
        Society 2010, chapter VII.
     """
 
-    filtration: Filtration
+    filtration: AnyFiltration
     pairs: tuple[IntArray, IntArray, IntArray]
     essential: tuple[IntArray, IntArray, IntArray]
+
+    @property
+    def _dimensions(self) -> range:
+        """The dimensions that classes can have: 0 and 1 in the plane, also 2 in space."""
+        return range(self.filtration.points.shape[1])
 
     # In radii
 
     @cached_property
     def births(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Birth of each of `pairs`, three ``(p_k,)`` float64 arrays of radii."""
-        taken = (
-            radii.take(pairs[:, 0])
-            for radii, pairs in zip(self.filtration.radii, self.pairs, strict=True)
+        radii = self.filtration.radii
+        zero, one, two = (
+            read_only(radii[k].take(pairs[:, 0])) for k, pairs in enumerate(self.pairs)
         )
-        zero, one, two = (read_only(values) for values in taken)
         return zero, one, two
 
     @cached_property
     def deaths(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Death of each of `pairs`, three ``(p_k,)`` float64 arrays of radii."""
         radii = (*self.filtration.radii[1:], np.empty(0))
-        taken = (
-            values.take(pairs[:, 1]) for values, pairs in zip(radii, self.pairs, strict=True)
+        zero, one, two = (
+            read_only(radii[k].take(pairs[:, 1])) for k, pairs in enumerate(self.pairs)
         )
-        zero, one, two = (read_only(values) for values in taken)
         return zero, one, two
 
     def diagram(
@@ -83,7 +92,7 @@ class Persistence(Record):
         Parameters
         ----------
         dimension : int
-            0 for components, 1 for loops; there are none of dimension 2 in the plane.
+            0 for components, 1 for loops, 2 for voids; there are none in the plane.
         squared : bool, default False
             Give squared radii, the values of GUDHI's alpha complexes. What is too large
             for float64 becomes infinite, what is too small zero.
@@ -121,15 +130,19 @@ class Persistence(Record):
 
     def diagrams(
         self, *, squared: bool = False, zero_length: bool = False
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return :meth:`diagram` of dimensions 0 and 1, as ``persim`` takes them."""
-        zero, one = (self.diagram(k, squared=squared, zero_length=zero_length) for k in (0, 1))
-        return zero, one
+    ) -> tuple[FloatArray, ...]:
+        """Return :meth:`diagram` of each dimension, as ``persim`` takes them.
+
+        These are dimensions 0 and 1 in the plane, and 0, 1 and 2 in space.
+        """
+        return tuple(
+            self.diagram(k, squared=squared, zero_length=zero_length) for k in self._dimensions
+        )
 
     # Betti numbers
 
     def betti_numbers(self, radius: ArrayLike) -> CountArray:
-        """Return how many components and holes the complex has at each radius.
+        """Return how many components, loops and voids the complex has at each radius.
 
         Parameters
         ----------
@@ -138,8 +151,8 @@ class Persistence(Record):
 
         Returns
         -------
-        (..., 2) int64
-            The shape of `radius`, then b0, b1.
+        (..., 2) or (..., 3) int64
+            The shape of `radius`, then b0, b1 in the plane; b0, b1, b2 in space.
 
         Raises
         ------
@@ -153,34 +166,32 @@ class Persistence(Record):
         return read_only(numbers)
 
     def betti_curve(self) -> StepCurve:
-        """Return b0 and b1 as exact step functions of the radius.
+        """Return the Betti numbers as exact step functions of the radius.
 
         Returns
         -------
         StepCurve
-            ``radii``, (k,) float64, starts with 0, and ``values``, (k, 2) int64, holds
-            b0, b1 from each radius up to the next.
+            ``radii``, (k,) float64, starts with 0, and ``values``, (k, 2) or (k, 3)
+            int64, holds :meth:`betti_numbers` from each radius up to the next.
         """
         return steps_of(self.betti_numbers, self._sorted_lives)
 
     def euler_curve(self) -> StepCurve:
-        """Return the Euler characteristic b0 - b1 as an exact step function of the radius.
+        """Return the Euler characteristic b0 - b1 + b2 as an exact step function.
 
         Returns
         -------
         StepCurve
             ``radii``, (k,) float64, starts with 0, and ``values``, (k,) int64.
         """
-        return steps_of(
-            lambda radii: np.subtract(*np.moveaxis(self.betti_numbers(radii), -1, 0)),
-            self._sorted_lives,
-        )
+        signs = np.array([1, -1, 1], dtype=np.int64)[: len(self._dimensions)]
+        return steps_of(lambda radii: self.betti_numbers(radii) @ signs, self._sorted_lives)
 
     @cached_property
     def _sorted_lives(self) -> tuple[tuple[FloatArray, FloatArray], ...]:
-        """Births and deaths of lasting classes of dimensions 0 and 1, each ascending."""
+        """Births and deaths of lasting classes of each dimension, each ascending."""
         lives = []
-        for k in (0, 1):
+        for k in self._dimensions:
             lasting = self.births[k] < self.deaths[k]
             births = (
                 self.births[k].compress(lasting),
@@ -199,6 +210,7 @@ class Persistence(Record):
         ----------
         radius : float
         dimension : int, default 1
+            0 for components, 1 for loops, 2 for voids.
 
         Returns
         -------
@@ -218,7 +230,7 @@ class Persistence(Record):
         return read_only(rows.take(latest_first).astype(np.int32))
 
     def holes(self, classes: ArrayLike) -> Rings:
-        """Return the rings around holes at their birth: representative cycles.
+        """Return the rings around holes in the plane at their birth: representative cycles.
 
         Parameters
         ----------
@@ -236,30 +248,90 @@ class Persistence(Record):
         ------
         ParameterError
             If there is no such class.
+        DimensionError
+            If the points lie in space: see :meth:`loops` and :meth:`voids`.
         """
+        if isinstance(self.filtration, Filtration3D):
+            raise DimensionError(
+                "holes have rings around them in the plane alone; in space, see "
+                "loops(classes) and voids(classes)"
+            )
         return hole_rings(self.filtration, self.pairs[1], classes)
 
-    def __repr__(self) -> str:
-        components, holes = (int((b < d).sum()) for b, d in zip(*self._lives, strict=True))
-        components += len(self.essential[0])
-        return f"<Persistence: {components:,} components, {holes:,} holes that come and go>"
+    def loops(self, classes: ArrayLike) -> Rings:
+        """Return a short closed path for each loop at its birth: representative cycles.
 
-    @property
-    def _lives(self) -> tuple[tuple[FloatArray, ...], tuple[FloatArray, ...]]:
-        return self.births[:2], self.deaths[:2]
+        The path runs through the edge that creates the class and takes the shortest way
+        back along edges that joined before. Any such way represents the class as it is
+        born: two of them differ by loops that are older.
+
+        Parameters
+        ----------
+        classes : int or sequence of int
+            Rows of ``pairs[1]``, as :meth:`alive` gives them.
+
+        Returns
+        -------
+        Rings
+            One closed path of rows of the points for each class; it starts with the lower
+            end of the creating edge and ends with the other.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such class.
+        """
+        return shortest_loops(self.filtration, self.pairs[1], classes)
+
+    def voids(self, classes: ArrayLike) -> Shells:
+        """Return the triangles around voids at their birth: representative cycles.
+
+        Parameters
+        ----------
+        classes : int or sequence of int
+            Rows of ``pairs[2]``, as :meth:`alive` gives them for dimension 2.
+
+        Returns
+        -------
+        Shells
+            For each class the border of the region that the void covers when it is born:
+            closed surfaces, one around it and others around what lies within it.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such class.
+        DimensionError
+            If the points lie in the plane, where there are no voids.
+        """
+        if not isinstance(self.filtration, Filtration3D):
+            raise DimensionError("there are voids in space alone; in the plane, see holes()")
+        return void_shells(self.filtration, self.pairs[2], classes)
+
+    def __repr__(self) -> str:
+        counts = [int((self.births[k] < self.deaths[k]).sum()) for k in self._dimensions]
+        counts[0] += len(self.essential[0])
+        names = ("components", "holes" if len(counts) == 2 else "loops", "voids")
+        facts = [f"{count:,} {name}" for count, name in zip(counts, names, strict=False)]
+        return f"<Persistence: {', '.join(facts)} that come and go>"
 
 
 def persistence(
-    filtration: Filtration, *, threads: int | None = None, progress: Progress | None = None
+    filtration: AnyFiltration,
+    *,
+    threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Persistence:
     """Pair the simplices of a filtration that begin and end its classes of homology.
 
-    Components are found by union-find over the edges, holes by union-find over the
-    triangles backwards [1]_: near-linear time, no matrix.
+    Components are found by union-find over the edges, holes in the plane and voids in
+    space by union-find over the cells backwards [1]_: near-linear time, no matrix. That
+    leaves loops in space: the columns of the triangles and the rows of the edges that are
+    in no pair yet are reduced [2]_, [3]_.
 
     Parameters
     ----------
-    filtration : Filtration
+    filtration : Filtration or Filtration3D
         From :func:`alphamesh.filtration`, or ``AlphaComplex.filtration``.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
@@ -280,22 +352,32 @@ def persistence(
     ----------
     .. [1] C. J. A. Delfinado and H. Edelsbrunner, An incremental algorithm for Betti
        numbers of simplicial complexes, Computer Aided Geometric Design 12 (1995) 771-784.
+    .. [2] C. Chen and M. Kerber, Persistent homology computation with a twist, 27th
+       European Workshop on Computational Geometry (2011).
+    .. [3] U. Bauer, M. Kerber, J. Reininghaus and H. Wagner, Phat: persistent homology
+       algorithms toolbox, Journal of Symbolic Computation 78 (2017) 76-90.
     """
     given: Any = filtration
-    if not isinstance(given, Filtration):
+    if not isinstance(given, Filtration | Filtration3D):
         raise ParameterError(
             f"persistence needs a filtration, not {type(given).__name__}; "
             "make one with alphamesh.filtration(points), or use AlphaComplex.persistence()"
         )
-    components, loops = filtration.pairs(threads=threads, progress=progress)
-    survivors = np.ones(len(filtration.simplices[0]), dtype=bool)
-    survivors[components[:, 0]] = False
-    none = read_only(np.empty(0, dtype=np.int32))
-    return Persistence(
-        filtration,
-        (components, loops, read_only(np.empty((0, 2), dtype=np.int32))),
-        (read_only(np.flatnonzero(survivors).astype(np.int32)), none, none),
-    )
+    found = filtration.pairs(threads=threads, progress=progress)
+    none = read_only(np.empty((0, 2), dtype=np.int32))
+    components, loops, voids = (*found, none)[:3]
+    pairs = (components, loops, voids)
+    zero, one, two = (_unpaired(filtration, pairs, k) for k in range(3))
+    return Persistence(filtration, pairs, (zero, one, two))
+
+
+def _unpaired(filtration: AnyFiltration, pairs: tuple[IntArray, ...], k: int) -> IntArray:
+    """Return the simplices of a dimension that end no class and begin none that ends."""
+    alone = np.ones(len(filtration.simplices[k]), dtype=bool)
+    alone[pairs[k][:, 0]] = False
+    if k > 0:
+        alone[pairs[k - 1][:, 1]] = False
+    return read_only(np.flatnonzero(alone).astype(np.int32))
 
 
 def _checked_dimension(dimension: int) -> int:

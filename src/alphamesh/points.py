@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Cloud",
     "as_cloud",
+    "at_positions",
     "coordinate_error",
     "merged_rows",
     "refuse_overflow",
@@ -163,6 +164,25 @@ def merged_rows(representative: IntArray | None, count: int) -> tuple[IntArray, 
     if representative is None:
         return rows, rows
     return representative, read_only(rows[representative == rows])
+
+
+def at_positions(pairs: IntArray, vertices: IntArray, count: int) -> IntArray:
+    """Return pairs whose first numbers are rows of points with positions in their place.
+
+    Parameters
+    ----------
+    pairs : (k, 2) int32
+        From the core, to which duplicates have numbers, too.
+    vertices : (m, 1) int32
+        The rows that stand for themselves, ascending.
+    count : int
+        How many points there are, duplicates and all.
+    """
+    if len(vertices) == count:
+        return pairs
+    moved = pairs.copy()
+    moved[:, 0] = np.searchsorted(vertices[:, 0], moved[:, 0])
+    return read_only(moved)
 
 
 _ROUND = {

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
+from alphamesh._kernels.topology import component_count
 from alphamesh.boundary import directed_boundary_edges
 from alphamesh.classify import SimplexKind, chosen
 from alphamesh.filtration import Filtration
@@ -174,6 +175,18 @@ class SimplexSet(Record):
         """Vertices minus edges plus triangles: components minus holes of the complex."""
         counts = self.counts
         return counts["vertices"] - counts["edges"] + counts["triangles"]
+
+    @cached_property
+    def betti(self) -> tuple[int, int]:
+        """Betti numbers ``(b0, b1)``: how many components and holes the complex has.
+
+        Components by union-find over the edges; holes are as many as the Euler
+        characteristic lacks. No persistence is needed.
+        """
+        # Rows that are no vertices of the complex stand alone, and are not counted.
+        absent = len(self.points) - self.counts["vertices"]
+        components = component_count(len(self.points), self.edges) - absent
+        return components, components - self.euler_characteristic
 
     # What to do with it
 

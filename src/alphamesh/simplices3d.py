@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
+from alphamesh._kernels.topology import component_count
 from alphamesh.classify import SimplexKind, chosen
 from alphamesh.delaunay3d import outward_triangles
 from alphamesh.filtration3d import Filtration3D
@@ -228,6 +229,26 @@ class SimplexSet3D(Record):
         counts = self.counts
         even = counts["vertices"] + counts["triangles"]
         return even - counts["edges"] - counts["tetrahedra"]
+
+    @cached_property
+    def betti(self) -> tuple[int, int, int]:
+        """Betti numbers ``(b0, b1, b2)``: how many components, loops and voids there are.
+
+        Components by union-find over the edges; voids by the same over the tetrahedra
+        that are not there, which meet across triangles that are not there (Delfinado &
+        Edelsbrunner 1995); loops are as many as the Euler characteristic lacks. No
+        persistence is needed.
+        """
+        counts = self.counts
+        # Rows that are no vertices of the complex stand alone, and are not counted.
+        absent = len(self.points) - counts["vertices"]
+        components = component_count(len(self.points), self.edges) - absent
+        missing = self._triangle_kinds == SimplexKind.EXTERIOR
+        outside = len(self.filtration.simplices[3])
+        across = chosen(self.filtration.triangle_tetrahedra, missing)
+        hollows = component_count(outside + 1, np.where(across < 0, outside, across))
+        voids = hollows - 1 - counts["tetrahedra"]  # each tetrahedron is one by itself
+        return components, components + voids - self.euler_characteristic, voids
 
     # What to do with it
 

@@ -40,6 +40,18 @@ def persistence2(
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
+def persistence3(
+    n: int,
+    edges: NDArray[np.int32],
+    edge_radii: NDArray[np.float64],
+    triangle_edges: NDArray[np.int32],
+    triangle_radii: NDArray[np.float64],
+    triangle_tetrahedra: NDArray[np.int32],
+    tetrahedron_radii: NDArray[np.float64],
+    threads: int,
+    progress: Callable[[float], object] | None,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]: ...
+def component_count(n: int, pairs: NDArray[np.int32]) -> int: ...
 def triangle_edges2(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],

@@ -1,4 +1,4 @@
-"""``alphamesh persistence``: when components and holes come and go."""
+"""``alphamesh persistence``: when components, holes and voids come and go."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = ["command"]
 
-# How many of the holes that last longest are told.
+# How many of the holes, loops and voids that last longest are told.
 _TOLD = 5
 
 _EXAMPLES = (
@@ -67,6 +67,8 @@ def command(
 ) -> None:
     """Tell at which radii components and holes of the complex come and go.
 
+    In space, these are components, loops and voids.
+
     INPUT is a mask image, a file of points, "-" for a table on standard input,
     or demo:NAME for a built-in shape. The radius, chosen unless given, is only
     marked in the picture.
@@ -94,30 +96,26 @@ def command(
 
 
 def _told(pairs: Persistence) -> tuple[dict[str, Any], dict[str, str]]:
-    components, holes = pairs.diagrams()
-    by_length = np.argsort(holes[:, 0] - holes[:, 1], kind="stable")
-    longest = holes[by_length[:_TOLD]]
+    components, *others = pairs.diagrams()
     finite = components[np.isfinite(components[:, 1]), 1]
     joined = float(finite.max(initial=0.0))
-    facts = {
-        "components": len(components),
-        "holes": len(holes),
-        "connected_from": joined,
-        "longest_holes": longest,
-    }
-    bars = [f"{number(birth)} to {length_text(death)}" for birth, death in longest]
-    lines = {
-        "Components": f"{len(components):,}, all joined at radius {length_text(joined)}",
-        "Holes": f"{len(holes):,} that come and go",
-        "Longest holes": "\n".join(bars) or "none",
-    }
+    facts: dict[str, Any] = {"components": len(components), "connected_from": joined}
+    lines = {"Components": f"{len(components):,}, all joined at radius {length_text(joined)}"}
+    names = ("holes",) if len(others) == 1 else ("loops", "voids")
+    for name, rows in zip(names, others, strict=True):
+        by_length = np.argsort(rows[:, 0] - rows[:, 1], kind="stable")
+        longest = rows[by_length[:_TOLD]]
+        bars = [f"{number(birth)} to {length_text(death)}" for birth, death in longest]
+        facts |= {name: len(rows), f"longest_{name}": longest}
+        lines[name.capitalize()] = f"{len(rows):,} that come and go"
+        lines[f"Longest {name}"] = "\n".join(bars) or "none"
     return facts, lines
 
 
 def _write(pairs: Persistence, squared: bool, path: Path) -> None:
     diagrams = pairs.diagrams(squared=squared)
     rows = np.concatenate(diagrams)
-    dimension = np.repeat(np.arange(2), [len(diagram) for diagram in diagrams])
+    dimension = np.repeat(np.arange(len(diagrams)), [len(diagram) for diagram in diagrams])
     columns = {"dimension": dimension, "birth": rows[:, 0], "death": rows[:, 1]}
     arrays = {f"dimension_{k}": diagram for k, diagram in enumerate(diagrams)}
     write_table(path, columns, arrays)

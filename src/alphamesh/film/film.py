@@ -9,10 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alphamesh.errors import FileWriteError, MissingLibraryError, ParameterError
+from alphamesh.errors import (
+    DimensionError,
+    FileWriteError,
+    MissingLibraryError,
+    ParameterError,
+)
 from alphamesh.film.radii import film_radii
 from alphamesh.film.writers import WRITERS, Reel, need_writer
 from alphamesh.filtration import Filtration
+from alphamesh.filtration3d import Filtration3D
 from alphamesh.io._atomic import atomic_path
 from alphamesh.persistence import Persistence, persistence
 
@@ -156,17 +162,16 @@ def _shown(radii: FloatArray) -> tuple[float, float]:
 
 
 def _persistence_of(source: Any) -> Persistence:
-    if isinstance(source, Persistence):
-        return source
-    filtration = (
-        source if isinstance(source, Filtration) else getattr(source, "filtration", None)
-    )
+    given = source if isinstance(source, Filtration | Filtration3D) else None
+    filtration = getattr(source, "filtration", given)
+    if isinstance(filtration, Filtration3D):
+        raise DimensionError("films are made of clouds in the plane alone")
     if not isinstance(filtration, Filtration):
         raise ParameterError(
             "a film needs an AlphaComplex, a Filtration or a Persistence, not "
             f"{type(source).__name__}; make one with alphamesh.AlphaComplex(points)"
         )
-    return persistence(filtration)
+    return source if isinstance(source, Persistence) else persistence(filtration)
 
 
 def _check_numbers(fps: Any, hold: Any, width: Any) -> None:

@@ -95,8 +95,7 @@ def last_radius(persistence: Persistence) -> float:
 
 def _events(persistence: Persistence) -> FloatArray:
     """Return the positive radii up to the end of the film at which the complex changes."""
-    _, edges, triangles = persistence.filtration.radii
-    events = np.unique(np.concatenate((edges, triangles)))
+    events = np.unique(np.concatenate(persistence.filtration.radii[1:]))
     # A cloud that no hole and no gap outlasts still ends with its last change.
     end = last_radius(persistence) or np.inf
     return events[(events > 0) & (events <= end)]

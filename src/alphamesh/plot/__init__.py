@@ -21,6 +21,7 @@ from alphamesh.plot.cells import (
     plot_voronoi,
 )
 from alphamesh.plot.complexes import plot_complex, plot_delaunay, plot_filtration
+from alphamesh.plot.cycles import plot_cycles
 from alphamesh.plot.drawing import Drawing, plot_cloud
 from alphamesh.plot.growth import GrowthView
 from alphamesh.plot.outlines import plot_frame, plot_hull
@@ -42,6 +43,7 @@ __all__ = [
     "plot_betti",
     "plot_cloud",
     "plot_complex",
+    "plot_cycles",
     "plot_delaunay",
     "plot_diagram",
     "plot_filtration",

@@ -8,6 +8,8 @@ import numpy as np
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from alphamesh.errors import DimensionError
+from alphamesh.filtration import Filtration
 from alphamesh.persistence import Persistence
 from alphamesh.plot.cells import add_restricted, cell_coloring
 from alphamesh.plot.chart import Chart
@@ -52,6 +54,8 @@ class GrowthView:
         self, persistence: Persistence, radii: tuple[float, float], *, width: int = 960
     ) -> None:
         self._persistence = persistence
+        if not isinstance(persistence.filtration, Filtration):
+            raise DimensionError("cells and complex are drawn side by side in the plane alone")
         self._filtration = persistence.filtration
         points = self._filtration.points
         edges = self._filtration.simplices[1]

@@ -27,7 +27,9 @@ __all__ = [
     "plot_diagram",
 ]
 
-_ROLES = ("components", "holes")
+# What classes are called, by dimension: loops are holes where they lie in the plane.
+_ROLES = {2: ("components", "holes"), 3: ("components", "loops", "voids")}
+_SINGULAR = {"components": "component", "holes": "hole", "loops": "loop", "voids": "void"}
 
 # Finer than the pixels of any chart: marks and steps closer than this are one.
 _CELLS = 1500
@@ -50,7 +52,8 @@ def plot_diagram(
     Returns
     -------
     Drawing
-        With the artists ``"components"``, ``"holes"``, ``"diagonal"`` and ``"radius"``.
+        With the artists ``"components"``, ``"holes"``, ``"diagonal"`` and ``"radius"``; in
+        space with ``"loops"`` and ``"voids"`` for holes.
         Of marks that lie on one another, one is drawn. Classes that never die stand on a
         line above the others.
     """
@@ -62,7 +65,7 @@ def plot_diagram(
     if any(np.isinf(rows[:, 1]).any() for rows in diagrams):
         chart.line("diagonal", [0, top], [above, above], 0.8, style=(0, (4, 3)))
         chart.note("never ends", (top, above), (0, 4), "right")
-    for role, rows in zip(_ROLES, diagrams, strict=True):
+    for role, rows in zip(_ROLES[len(diagrams)], diagrams, strict=True):
         marks = np.where(np.isinf(rows), above, rows)
         chart.marks(role, _apart(marks, top), 3.4)
     if radius is not None:
@@ -70,7 +73,7 @@ def plot_diagram(
         chart.note(f"r = {radius:.4g}", (radius, radius), (6, -4), "left", "radius")
     chart.limits((-0.03 * top, 1.03 * top), (-0.03 * top, 1.13 * top))
     chart.ax.set_aspect("equal")
-    chart.legend({"components": "component", "holes": "hole"}, "lower right")
+    chart.legend(_SINGULAR, "lower right")
     return chart.drawing()
 
 
@@ -97,7 +100,8 @@ def plot_barcode(
     Returns
     -------
     Drawing
-        With the artists ``"components"``, ``"holes"`` and ``"radius"``.
+        With the artists ``"components"``, ``"holes"`` and ``"radius"``; in space with
+        ``"loops"`` and ``"voids"`` for holes.
 
     Raises
     ------
@@ -111,7 +115,7 @@ def plot_barcode(
     diagrams = persistence.diagrams()
     top = 1.08 * _top(diagrams, radius)
     level = 0
-    for role, rows in zip(_ROLES, diagrams, strict=True):
+    for role, rows in zip(_ROLES[len(diagrams)], diagrams, strict=True):
         order = np.argsort(rows[:, 0] - rows[:, 1], kind="stable")
         bars = rows[order[:most]]
         _add_bars(chart, role, np.minimum(bars, top), -level - np.arange(len(bars)))
@@ -127,7 +131,9 @@ def plot_barcode(
     chart.limits((0, top), (1 - level, 4))
     chart.ax.set_yticks([])
     chart.ax.spines["left"].set_visible(False)
-    chart.legend({"components": "component", "holes": "hole"}, "lower right", above=0.06)
+    # Beside short bars: holes often come late, and voids later still.
+    corner, above = ("lower right", 0.06) if len(diagrams) == 2 else ("upper right", -0.06)
+    chart.legend(_SINGULAR, corner, above=above)
     return chart.drawing()
 
 
@@ -151,7 +157,7 @@ def plot_betti(
     *,
     radius: float | None = None,
 ) -> Drawing:
-    """Draw the number of components and holes against the radius.
+    """Draw the number of components, holes or loops, and voids against the radius.
 
     Parameters
     ----------
@@ -164,9 +170,9 @@ def plot_betti(
     Returns
     -------
     Drawing
-        With the artists ``"components"``, ``"holes"`` and ``"radius"``. Both axes are
-        logarithmic, as most changes come at small radii. Steps closer than a pixel are
-        drawn as one.
+        With the artists ``"components"``, ``"holes"`` and ``"radius"``; in space with
+        ``"loops"`` and ``"voids"`` for holes. Both axes are logarithmic, as most changes
+        come at small radii. Steps closer than a pixel are drawn as one.
     """
     chart = Chart(ax, "radius", "how many")
     shown = betti_range(persistence)
@@ -185,7 +191,8 @@ def add_betti_curves(
     chart.ax.set_xscale("log")
     # Linear up to 1, so that none and one have a place of their own.
     chart.ax.set_yscale("symlog", linthresh=1, linscale=0.5)
-    for column, role in enumerate(_ROLES):
+    roles = _ROLES[numbers.shape[1]]
+    for column, role in enumerate(roles):
         x, y = _steps(radii, numbers[:, column], low)
         (line,) = chart.ax.step(
             np.append(x, max(high, x[-1])),
@@ -200,7 +207,7 @@ def add_betti_curves(
     chart.limits((low, high), (-0.15, top))
     chart.ax.yaxis.set_major_formatter(lambda value, _: f"{value:,.0f}")
     chart.ax.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    chart.legend({"components": "components", "holes": "holes"}, "upper left", columns=2)
+    chart.legend({role: role for role in roles}, "upper left", columns=len(roles))
     return top
 
 
@@ -216,15 +223,17 @@ def _mark(
     marked = min(max(radius, low), high)
     chart.line("radius", [marked, marked], [0, top], 1.2)
     left = marked * marked < low * high
-    b0, b1 = persistence.betti_numbers(radius).tolist()
-    text = f"r = {radius:.4g}: {betti_text(b0, b1)}"
+    text = f"r = {radius:.4g}: {betti_text(*persistence.betti_numbers(radius).tolist())}"
     offset, align = ((4, -26), "left") if left else ((-4, -26), "right")
     chart.note(text, (marked, top), offset, align, "radius")
 
 
-def betti_text(b0: int, b1: int) -> str:
-    """Return Betti numbers in words."""
-    return f"{b0:,} component{'s' * (b0 != 1)}, {b1:,} hole{'s' * (b1 != 1)}"
+def betti_text(*numbers: int) -> str:
+    """Return Betti numbers, b0 and b1 in the plane or b0, b1 and b2 in space, in words."""
+    named = zip(numbers, _ROLES[len(numbers)], strict=True)
+    return ", ".join(
+        f"{number:,} {_SINGULAR[name] if number == 1 else name}" for number, name in named
+    )
 
 
 def betti_range(persistence: Persistence) -> tuple[float, float]:
