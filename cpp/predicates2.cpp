@@ -1,5 +1,6 @@
 #include "predicates2.hpp"
 
+#include "counting.hpp"
 #include "exact.hpp"
 
 namespace alphamesh {
@@ -14,10 +15,12 @@ Dd abs_dd(Dd a) { return a.h < 0.0 ? -a : a; }
 
 // p q - r s, the factors being exact differences.
 int det2_sign(Dd p, Dd q, Dd r, Dd s, double resolution) {
+  ALPHAMESH_NOTE(calls);
   const Dd l = p * q, m = r * s, det = l - m;
   const double bound = kBound2Dd * (std::fabs(l.h) + std::fabs(m.h));
   if (std::fabs(det.h) > bound) return det.h > 0.0 ? 1 : -1;
   if (std::fabs(det.h) + bound < resolution) return 0;
+  ALPHAMESH_NOTE(expansions);
   return (expansion(p) * expansion(q) - expansion(r) * expansion(s)).sign();
 }
 
@@ -34,6 +37,7 @@ int dot_exact(Point2 a, Point2 b, Point2 c, Lattice lattice) {
 }
 
 int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d, Lattice lattice) {
+  ALPHAMESH_NOTE(calls);
   const Dd adx = two_diff(a.x, d.x), ady = two_diff(a.y, d.y);
   const Dd bdx = two_diff(b.x, d.x), bdy = two_diff(b.y, d.y);
   const Dd cdx = two_diff(c.x, d.x), cdy = two_diff(c.y, d.y);
@@ -49,6 +53,7 @@ int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d, Lattice lattice) {
     const double u2 = lattice.unit * lattice.unit;
     if (std::fabs(det.h) + bound < u2 * u2) return 0;
   }
+  ALPHAMESH_NOTE(expansions);
   const auto ax = expansion(adx), ay = expansion(ady), bx = expansion(bdx), by = expansion(bdy);
   const auto cx = expansion(cdx), cy = expansion(cdy);
   const auto at = (bx * cy - cx * by) * (ax * ax + ay * ay);

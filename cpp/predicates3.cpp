@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "big.hpp"
+#include "counting.hpp"
 #include "exact.hpp"
 
 namespace alphamesh {
@@ -46,8 +47,10 @@ struct Circumcentre {
 // resolves, otherwise by `exact`.
 template <class Exact>
 int decide(Dd value, double bound, double resolution, Exact&& exact) {
+  ALPHAMESH_NOTE(calls);
   if (std::fabs(value.h) > bound) return value.h > 0.0 ? 1 : -1;
   if (std::fabs(value.h) + bound < resolution) return 0;
+  ALPHAMESH_NOTE(expansions);
   return exact().sign();
 }
 

@@ -64,17 +64,19 @@ void TriangleBlock::measure_carefully(std::size_t i, const Lattice& lattice, int
     side[k] = (r.x - q.x) * (r.x - q.x) + (r.y - q.y) * (r.y - q.y);
     angle[k] = dot(q, r, p[k], lattice);
   }
+  const double longest = std::max(side[0], std::max(side[1], side[2]));
   obtuse[i] = kNoEdge;
   for (std::int32_t k = 0; k < 3; ++k) {
     if (angle[k] < 0) obtuse[i] = (first_[i] + k + 1) % 3;
-    if (angle[k] == 0) {  // as the value of the edge, to the last bit
-      radius[i] = unscale * (0.5 * std::sqrt(side[k]));
+    if (angle[k] == 0) {
+      // As the value of the edge, to the last bit, unless rounding makes a leg that is
+      // nearly as long the longest.
+      radius[i] = unscale * (0.5 * std::sqrt(longest));
       return;
     }
   }
   const double det = cross_accurate(p[0], p[1], p[2]);
   const double radius_sq = 0.25 * ((side[2] / det) * (side[0] / det) * side[1]);
-  const double longest = std::max(side[0], std::max(side[1], side[2]));
   const bool plain = radius_sq < kLargeSq && radius_sq > kSmallSq;
   const double r = plain ? unscale * std::sqrt(radius_sq)
                          : circumradius_scaled(side[2], side[0], side[1], det, -exponent);

@@ -196,18 +196,18 @@ void FlatBlock::measure_carefully(std::size_t i, const Lattice3& lattice, int ex
   Point3 p[3];
   for (int k = 0; k < 3; ++k) p[k] = {x_[k][i], y_[k][i], z_[k][i]};
   const double side[3] = {square(p[2] - p[1]), square(p[0] - p[2]), square(p[1] - p[0])};
+  const double longest = std::max(side[0], std::max(side[1], side[2]));
   obtuse[i] = 3;
   for (int k = 0; k < 3; ++k) {
     const int angle = dot3(p[(k + 1) % 3], p[(k + 2) % 3], p[k], lattice);
     if (angle < 0) obtuse[i] = k;
-    if (angle == 0) {  // as the value of the edge, to the last bit
-      radius[i] = unscale * (0.5 * std::sqrt(side[k]));
+    if (angle == 0) {  // half of the longest side, see TriangleBlock
+      radius[i] = unscale * (0.5 * std::sqrt(longest));
       return;
     }
   }
   const double det = norm(normal_accurate(p[0], p[1], p[2]));
   const double radius_sq = 0.25 * ((side[2] / det) * (side[0] / det) * side[1]);
-  const double longest = std::max(side[0], std::max(side[1], side[2]));
   const bool plain = radius_sq < kLargeSq && radius_sq > kSmallSq;
   const double r = plain ? unscale * std::sqrt(radius_sq)
                          : circumradius_scaled(side[2], side[0], side[1], det, -exponent);

@@ -22,6 +22,7 @@ from alphamesh.plot import (
     plot_voronoi,
 )
 from alphamesh.plot.drawing import new_figure
+from alphamesh.plot.style import CELL_COLORS
 
 PICTURES = Path(__file__).parent / "pictures"
 MOST_BYTES = 300_000
@@ -80,6 +81,96 @@ def topology():
     return small_png(figure, dpi=80)
 
 
+def maps(width, height, count):
+    """Return a figure with so many axes for maps."""
+    figure = new_figure(width, height)
+    axes = figure.subplots(1, count)
+    figure.subplots_adjust(0.01, 0.02, 0.99, 0.92, 0.03)
+    return figure, axes
+
+
+def titled(ax, text, box):
+    ax.set_title(text, fontsize=11)
+    ax.set_axis_off()
+    ax.set_aspect("equal")
+    (left, low), (right, high) = box.min(axis=0), box.max(axis=0)
+    ax.set_xlim(left - 0.03 * (right - left), right + 0.03 * (right - left))
+    ax.set_ylim(low - 0.03 * (high - low), high + 0.03 * (high - low))
+
+
+FACE, LINE, DOT = "#9fc5e8", "#1f4e79", "#333333"
+
+
+def soho():
+    """Draw what docs/gis.md tells of the dead in Soho."""
+    from libpysal import examples
+
+    deaths = am.read_geo(examples.get_path("SohoPeople.shp"))
+    deaths = deaths[deaths["Count"] > 0].to_crs("EPSG:27700")
+    regions = (
+        am.AlphaComplex(deaths).at(25).to_geopandas(data=deaths, aggregate={"Count": "sum"})
+    )
+    box = deaths.get_coordinates().to_numpy()
+    figure, axes = maps(11, 5.2, 2)
+    size = 4 * deaths["Count"]
+    deaths.plot(ax=axes[0], color=DOT, markersize=size, linewidth=0)
+    titled(axes[0], f"{len(deaths)} addresses, {deaths['Count'].sum()} dead", box)
+    regions.plot(ax=axes[1], color=FACE, edgecolor=LINE, linewidth=0.9)
+    deaths.plot(ax=axes[1], color=DOT, markersize=size / 4, linewidth=0)
+    pumps = am.read_geo(examples.get_path("SohoWater.shp")).to_crs(deaths.crs)
+    pumps.plot(ax=axes[1], color="#d55e00", marker="D", markersize=36)
+    for region in regions.itertuples():
+        text = f"{region.Count_sum} dead"
+        middle, top = region.geometry.centroid.x, region.geometry.bounds[3]
+        axes[1].annotate(text, (middle, top + 6), fontsize=10, ha="center", va="bottom")
+    titled(axes[1], "regions at radius 25 m, and the pumps", box)
+    return small_png(figure, dpi=80)
+
+
+def airports():
+    """Draw what docs/gis.md tells of the airports of the USA."""
+    import geopandas
+    from vega_datasets import data
+
+    table = data.airports()
+    contiguous = table["longitude"].between(-126, -60) & (table["latitude"] > 24)
+    table = table[(table["country"] == "USA") & contiguous]
+    places = geopandas.points_from_xy(table["longitude"], table["latitude"])
+    frame = geopandas.GeoDataFrame(table[["state"]], geometry=places, crs="EPSG:4326")
+    frame = frame.to_crs("EPSG:5070")
+    states = am.alpha_shapes(frame, by="state", radius="one-region")
+    box = frame.get_coordinates().to_numpy()
+    figure, axes = maps(12, 4.2, 2)
+    frame.plot(ax=axes[0], color=DOT, markersize=1.5, linewidth=0)
+    titled(axes[0], f"{len(frame):,} airports", box)
+    states = states[states["area"] > 0]  # all but the District of Columbia
+    colors = [CELL_COLORS[3 * k % 7] for k in range(len(states))]
+    states.plot(ax=axes[1], color=colors, edgecolor=LINE, linewidth=0.6)
+    frame.plot(ax=axes[1], color=DOT, markersize=0.6, linewidth=0)
+    titled(axes[1], f"one shape for each of {len(states)} states", box)
+    return small_png(figure, dpi=90)
+
+
+def horse():
+    """Draw what docs/gis.md tells of the horse."""
+    import geopandas
+    from skimage.data import horse as picture
+
+    points = am.sample_mask(~picture(), 4000, seed=1)
+    shape = am.AlphaComplex(points).at()
+    figure, axes = maps(12, 3.6, 3)
+    axes[0].plot(*points.T, ".", color=DOT, markersize=1.2)
+    titled(axes[0], f"{len(points):,} points", points)
+    outlines = {
+        f"outline at radius {shape.radius:.1f}": shape.geometry(),
+        "simplified by 1.5, smoothed": shape.geometry(simplify=1.5, smooth=3),
+    }
+    for ax, (title, outline) in zip(axes[1:], outlines.items(), strict=True):
+        geopandas.GeoSeries([outline]).plot(ax=ax, color=FACE, edgecolor=LINE, linewidth=0.9)
+        titled(ax, title, points)
+    return small_png(figure, dpi=80)
+
+
 def grow():
     """Make the film; written by its own writer, so it is read back."""
     target = PICTURES / "grow.gif"
@@ -95,6 +186,9 @@ MAKERS = {
     "radii.png": three_radii,
     "cells.svg": cells,
     "topology.png": topology,
+    "soho.png": soho,
+    "airports.png": airports,
+    "horse.png": horse,
     "grow.gif": grow,
 }
 

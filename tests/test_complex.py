@@ -36,6 +36,8 @@ def arrays_of(result):
     """Return the arrays of a record by name, tuples taken apart."""
     found = {}
     for field in fields(result):
+        if field.name == "crs":  # what came with the points
+            continue
         value = getattr(result, field.name)
         parts = value if isinstance(value, tuple) else (value,)
         found |= {f"{field.name}[{k}]": part for k, part in enumerate(parts)}

@@ -157,6 +157,16 @@ def test_right_angles_share_their_value(scale):
             assert oracles.relative_error(values[1, 2], exact) <= 2**-52
 
 
+def test_right_angle_whose_leg_rounds_to_more_than_the_hypotenuse():
+    """A leg and the hypotenuse differ by less than the rounding of their lengths."""
+    points = np.array([[-1.0, -2.0], [1 + 2.0**-52, -1 - 2.0**-51], [1.0, -1.0]])
+    found = filtration(points)
+    check_filtration(found)
+    assert found.radii[2][0] >= found.radii[1].max()
+    space = filtration(np.column_stack((points, points.sum(axis=1))))
+    assert space.radii[2][0] >= space.radii[1].max()
+
+
 def test_no_point():
     result = filtration(np.empty((0, 2)))
     assert [len(simplices) for simplices in result.simplices] == [0, 0, 0]

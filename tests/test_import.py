@@ -20,10 +20,13 @@ from alphamesh.errors import MissingLibraryError
 OPTIONAL = (
     "PIL",
     "click",
+    "geopandas",
     "matplotlib",
     "meshio",
     "pandas",
     "pyarrow",
+    "pyogrio",
+    "pyproj",
     "rich",
     "scipy",
     "shapely",

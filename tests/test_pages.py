@@ -5,6 +5,8 @@ from __future__ import annotations
 import importlib.util
 import json
 import re
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -54,3 +56,43 @@ def test_makers_still_draw(name):
     content = script("make_pictures").MAKERS[name]()
     assert content.startswith(b"<?xml" if name.endswith("svg") else b"\x89PNG")
     assert len(content) < 300_000
+
+
+def test_the_reference_of_the_commands_is_that_of_the_code():
+    pytest.importorskip("click")
+    pytest.importorskip("rich")
+    made = script("make_commands").page()
+    kept = (DOCS / "commands.md").read_text("utf-8")
+    assert kept == made, "run python docs/make_commands.py"
+
+
+def test_every_command_has_a_manual_page(tmp_path):
+    pytest.importorskip("click")
+    pytest.importorskip("rich")
+    made = script("make_commands")
+    made.write_manuals(tmp_path / "man")
+    names = {path.name for path in (tmp_path / "man").iterdir()}
+    commands = {name for name, _, _ in made.commands()}
+    assert {name.split()[0] for name in commands} == set(made.COMMANDS)
+    pages = {f"alphamesh-{name.replace(' ', '-')}.1" for name in commands}
+    assert names == {"alphamesh.1", *pages}
+    page = (tmp_path / "man" / "alphamesh-mesh.1").read_text("utf-8")
+    for part in (".TH", ".SH NAME", ".SH SYNOPSIS", ".SH EXAMPLES", "\\-\\-output\\-dir"):
+        assert part in page
+    # A line that begins with a dot is a request; these are all that the pages need.
+    for path in (tmp_path / "man").iterdir():
+        requests = re.findall(r"^([.'][A-Za-z]*)", path.read_text("utf-8"), re.MULTILINE)
+        assert set(requests) <= {".TH", ".SH", ".PP", ".TP", ".nf", ".fi"}
+
+
+@pytest.mark.skipif(shutil.which("groff") is None, reason="groff is not installed")
+def test_manual_pages_are_set_without_a_warning(tmp_path):
+    pytest.importorskip("click")
+    pytest.importorskip("rich")
+    script("make_commands").write_manuals(tmp_path)
+    for path in tmp_path.iterdir():
+        done = subprocess.run(
+            ["groff", "-man", "-Tascii", "-ww", str(path)], capture_output=True, check=True
+        )
+        assert done.stderr == b""
+        assert b"alphamesh" in done.stdout

@@ -107,6 +107,12 @@ def test_npy_of_any_number_type(read, dtype):
 # NPY and NPZ
 
 
+def test_npy_of_python_2(read):
+    content = npy(TWO).replace(f"({len(TWO)}, 2)".encode(), f"({len(TWO)}L, 2L)".encode())
+    content = content.replace(b"  \n", b"\n", 1)
+    assert read(content, "a.npy") == TWO.tolist()
+
+
 def test_npy_columns(read):
     wide = np.column_stack([np.zeros(2), TWO[:, 1], TWO[:, 0]])
     assert read(npy(wide), "a.npy", dimension=2) == wide[:, :2].tolist()

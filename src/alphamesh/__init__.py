@@ -16,7 +16,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from alphamesh import check, errors, plot
+    from alphamesh import check, errors, migrate, plot
     from alphamesh.classify import SimplexKind
     from alphamesh.complex import AlphaComplex
     from alphamesh.complex3d import AlphaComplex3D
@@ -28,11 +28,13 @@ if TYPE_CHECKING:
     from alphamesh.filtration import Filtration, filtration
     from alphamesh.filtration3d import Filtration3D
     from alphamesh.frame import FRAME_SHAPES, Frame, FramedDelaunay, framed_delaunay
+    from alphamesh.gis import alpha_shapes
     from alphamesh.hull import ConvexHull, convex_hull
     from alphamesh.hull3d import ConvexHull3D
+    from alphamesh.io.geo import GEO_FORMATS, read_geo, write_geo
     from alphamesh.io.images import sample_mask
     from alphamesh.io.meshes import MESH_FORMATS, Mesh, write_mesh
-    from alphamesh.io.points import read_points
+    from alphamesh.io.points import read_points, read_table
     from alphamesh.outline import Rings
     from alphamesh.persistence import Persistence, persistence
     from alphamesh.planar import Selection
@@ -45,6 +47,7 @@ if TYPE_CHECKING:
     from alphamesh.shape import AlphaShape
     from alphamesh.shape3d import AlphaShape3D
     from alphamesh.solid import Selection3D
+    from alphamesh.table import PointTable
     from alphamesh.voronoi import ClippedVoronoi, Voronoi, voronoi
 
     __version__: str
@@ -52,6 +55,7 @@ if TYPE_CHECKING:
 __all__ = [
     "DEMO_SHAPES",
     "FRAME_SHAPES",
+    "GEO_FORMATS",
     "MESH_FORMATS",
     "AlphaComplex",
     "AlphaComplex3D",
@@ -73,6 +77,7 @@ __all__ = [
     "Mesh",
     "Nearest",
     "Persistence",
+    "PointTable",
     "RadiusChoice",
     "Regions",
     "Regions3D",
@@ -84,6 +89,7 @@ __all__ = [
     "Voids",
     "Voronoi",
     "__version__",
+    "alpha_shapes",
     "animate",
     "check",
     "choose_radius",
@@ -95,16 +101,20 @@ __all__ = [
     "filtration",
     "framed_delaunay",
     "measure_curves",
+    "migrate",
     "persistence",
     "plot",
+    "read_geo",
     "read_points",
+    "read_table",
     "restricted_voronoi",
     "sample_mask",
     "voronoi",
+    "write_geo",
     "write_mesh",
 ]
 
-_MODULES = ("check", "errors", "plot")
+_MODULES = ("check", "errors", "migrate", "plot")
 _HOMES = {
     "classify": ("SimplexKind",),
     "complex": ("AlphaComplex",),
@@ -117,11 +127,13 @@ _HOMES = {
     "filtration": ("Filtration", "filtration"),
     "filtration3d": ("Filtration3D",),
     "frame": ("FRAME_SHAPES", "Frame", "FramedDelaunay", "framed_delaunay"),
+    "gis": ("alpha_shapes",),
     "hull": ("ConvexHull", "convex_hull"),
     "hull3d": ("ConvexHull3D",),
+    "io.geo": ("GEO_FORMATS", "read_geo", "write_geo"),
     "io.images": ("sample_mask",),
     "io.meshes": ("MESH_FORMATS", "Mesh", "write_mesh"),
-    "io.points": ("read_points",),
+    "io.points": ("read_points", "read_table"),
     "outline": ("Rings",),
     "persistence": ("Persistence", "persistence"),
     "planar": ("Selection",),
@@ -134,6 +146,7 @@ _HOMES = {
     "shape": ("AlphaShape",),
     "shape3d": ("AlphaShape3D",),
     "solid": ("Selection3D",),
+    "table": ("PointTable",),
     "voronoi": ("ClippedVoronoi", "Voronoi", "voronoi"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

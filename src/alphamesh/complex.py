@@ -40,9 +40,10 @@ class AlphaComplex:
     Parameters
     ----------
     points : array-like of shape (n, 2) or (n, 3)
-        Arrays, lists, DataFrames of two or three numeric columns; copied. Duplicates are
-        merged. Any number of points is legal: none, one, all on one line. Three columns
-        give an :class:`~alphamesh.AlphaComplex3D`.
+        Arrays, lists, DataFrames of two or three numeric columns; GeoDataFrames,
+        GeoSeries and lists of Points; tables from :func:`alphamesh.read_table`. Copied.
+        Duplicates are merged. Any number of points is legal: none, one, all on one line.
+        Three columns give an :class:`~alphamesh.AlphaComplex3D`.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
         on it.
@@ -55,6 +56,11 @@ class AlphaComplex:
         If there is no exact complex of such points; the message names the rows.
     ParameterError
         If `threads` or `progress` is not what it must be.
+
+    Warns
+    -----
+    GeographicCoordinatesWarning
+        If the points come with a reference system of longitudes and latitudes.
 
     Notes
     -----
@@ -104,6 +110,11 @@ class AlphaComplex:
     def points(self) -> FloatArray:
         """The cloud, ``(n, 2)`` float64."""
         return self._filtration.points
+
+    @property
+    def crs(self) -> Any:
+        """The coordinate reference system that came with the points, or None."""
+        return self._filtration.crs
 
     @property
     def representative(self) -> IntArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
 
 __all__ = [
@@ -16,6 +17,7 @@ __all__ = [
     "EmptyMaskError",
     "FileReadError",
     "FileWriteError",
+    "GeographicCoordinatesWarning",
     "InvalidResultError",
     "LossyFormatWarning",
     "MissingLibraryError",
@@ -34,6 +36,15 @@ def rows_text(rows: Iterable[int], *, total: int | None = None) -> str:
     if count == 1:
         return f"row {shown}"
     return f"rows {shown}" if count <= _ROWS_SHOWN else f"rows {shown}, ... ({count} in all)"
+
+
+def user_stacklevel() -> int:
+    """Return the `stacklevel` at which a warning shows the line outside of alphamesh."""
+    level, frame = 1, sys._getframe(1)
+    inner = ("alphamesh.", "contextlib")
+    while frame.f_back and frame.f_globals.get("__name__", "").startswith(inner):
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 class AlphameshError(Exception):
@@ -117,3 +128,7 @@ class AlphameshWarning(UserWarning):
 
 class LossyFormatWarning(AlphameshWarning):
     """A file format that cannot hold all of what is written; the message names the loss."""
+
+
+class GeographicCoordinatesWarning(AlphameshWarning):
+    """Points in degrees of longitude and latitude, where a radius is distorted."""

@@ -20,7 +20,13 @@ from alphamesh.classify import (
 from alphamesh.delaunay import Delaunay
 from alphamesh.filtration3d import Filtration3D, filtration_in_space
 from alphamesh.measures import scaled_points, triangle_areas
-from alphamesh.points import as_cloud, coordinate_error, merged_rows, refuse_overflow
+from alphamesh.points import (
+    as_cloud,
+    coordinate_error,
+    merged_rows,
+    refuse_overflow,
+    warn_of_degrees,
+)
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
@@ -53,6 +59,8 @@ class Filtration(Record):
         The filtration values of `simplices`, in the units of the points.
     edge_triangles : (m_1, 2) int32
         The one or two triangles that each edge belongs to; -1 for none.
+    crs : pyproj.CRS or None
+        The coordinate reference system of the points, if they came with one.
 
     All arrays are read-only. Three entries are always there, possibly empty.
 
@@ -67,6 +75,7 @@ class Filtration(Record):
     simplices: tuple[IntArray, IntArray, IntArray]
     radii: tuple[FloatArray, FloatArray, FloatArray]
     edge_triangles: IntArray
+    crs: Any = None
 
     @property
     def dimension(self) -> int:
@@ -203,6 +212,11 @@ def filtration(
         If there is no exact filtration of such points; the message names the rows.
     ParameterError
         If `threads` or `progress` is not what it must be.
+
+    Warns
+    -----
+    GeographicCoordinatesWarning
+        If the points come with a reference system of longitudes and latitudes.
     """
     cloud = as_cloud(points)
     if cloud.points.shape[1] == 3:
@@ -215,6 +229,7 @@ def filtration_in_plane(
 ) -> Filtration:
     """Compute the alpha filtration of a cloud in the plane; see :func:`filtration`."""
     cloud = as_cloud(points, 2)
+    warn_of_degrees(cloud)
     try:
         result = _kernels.alpha2(cloud.points, threads, progress)
     except _kernels.BadCoordinates:
@@ -232,6 +247,7 @@ def filtration_in_plane(
         (vertices.reshape(-1, 1), edges, triangles),
         (read_only(np.zeros(len(vertices))), edge_radii, triangle_radii),
         edge_triangles,
+        cloud.crs,
     )
 
 

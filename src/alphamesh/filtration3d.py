@@ -19,7 +19,13 @@ from alphamesh.classify import (
 )
 from alphamesh.delaunay3d import Delaunay3D, oriented_tetrahedra, triangulation
 from alphamesh.measures import tetrahedron_volumes, triangle_areas
-from alphamesh.points import as_cloud, coordinate_error, merged_rows, refuse_overflow
+from alphamesh.points import (
+    as_cloud,
+    coordinate_error,
+    merged_rows,
+    refuse_overflow,
+    warn_of_degrees,
+)
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
@@ -49,6 +55,8 @@ class Filtration3D(Record):
         The filtration values of `simplices`, in the units of the points.
     triangle_tetrahedra : (m_2, 2) int32
         The one or two tetrahedra that each triangle belongs to; -1 for none.
+    crs : pyproj.CRS or None
+        The coordinate reference system of the points, if they came with one.
 
     All arrays are read-only. Four entries are always there, possibly empty: a cloud in
     one plane has no tetrahedra.
@@ -64,6 +72,7 @@ class Filtration3D(Record):
     simplices: tuple[IntArray, IntArray, IntArray, IntArray]
     radii: tuple[FloatArray, FloatArray, FloatArray, FloatArray]
     triangle_tetrahedra: IntArray
+    crs: Any = None
 
     @property
     def dimension(self) -> int:
@@ -181,6 +190,7 @@ def filtration_in_space(
     Filtration3D
     """
     cloud = as_cloud(points, 3)
+    warn_of_degrees(cloud)
     try:
         result = alpha3(cloud.points, threads, progress)
     except _kernels.BadCoordinates:
@@ -198,4 +208,5 @@ def filtration_in_space(
         (vertices.reshape(-1, 1), *simplices),
         (read_only(np.zeros(len(vertices))), *radii),
         triangle_tetrahedra,
+        cloud.crs,
     )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import read_only
+from alphamesh.attributed import AttributedShape
 from alphamesh.classify import SimplexKind
 from alphamesh.outline import Rings, outline
 from alphamesh.parts import Parts, as_cell_mask, chosen_regions, labelled, large_regions
@@ -29,7 +30,6 @@ from alphamesh.regions import (
     find_regions,
     without_holes,
 )
-from alphamesh.simplices import SimplexSet
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
@@ -39,7 +39,7 @@ __all__ = ["PlanarShape", "Selection"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class PlanarShape(SimplexSet):
+class PlanarShape(AttributedShape):
     """Simplices in the plane, and what their triangles make up.
 
     Outlines, regions, holes and queries are about the triangles alone, the regularized
@@ -234,6 +234,8 @@ class PlanarShape(SimplexSet):
         CloudShapeError, NonFiniteError, CoordinateRangeError
             If `points` is not a table of finite numbers of the scale of the cloud; the
             message names the rows.
+        ParameterError
+            If they come with another reference system than that of the shape.
         """
         return read_only(self.region_of(points) >= 0)
 
@@ -248,7 +250,7 @@ class PlanarShape(SimplexSet):
             Numbers of :attr:`regions`; -1 outside. Regions are closed: where two of them
             touch, the lower number is returned.
         """
-        queries = as_queries(points)
+        queries = as_queries(points, self.crs)
         return regions_at(
             self.filtration.delaunay, self._parts.labels, self.regions.vertex_labels, queries
         )
@@ -269,7 +271,7 @@ class PlanarShape(SimplexSet):
         CloudShapeError, NonFiniteError
             If `points` is not a table of finite numbers; the message names the rows.
         """
-        return nearest_edges(self._edge_tree, as_queries(points))
+        return nearest_edges(self._edge_tree, as_queries(points, self.crs))
 
     def distance(self, points: Any, *, signed: bool = False) -> FloatArray:
         """Return how far each point is from the shape, in the units of the points.
@@ -291,7 +293,7 @@ class PlanarShape(SimplexSet):
         CloudShapeError, NonFiniteError, CoordinateRangeError
             See :meth:`contains`.
         """
-        queries = as_queries(points)
+        queries = as_queries(points, self.crs)
         inside = self.contains(queries)
         distances = nearest_edges(self._edge_tree, queries).distances
         inner = -distances if signed else np.zeros(len(queries))

@@ -7,19 +7,35 @@ that float64 cannot hold is refused, with its row.
 from __future__ import annotations
 
 import os
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alphamesh import _coercion
+from alphamesh import _coercion, _geopoints
 from alphamesh._arrays import Record, read_only
-from alphamesh.errors import CloudError, CoordinateRangeError, NonFiniteError, rows_text
+from alphamesh.errors import (
+    CloudError,
+    CoordinateRangeError,
+    GeographicCoordinatesWarning,
+    NonFiniteError,
+    rows_text,
+    user_stacklevel,
+)
+from alphamesh.table import PointTable
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
 
-__all__ = ["Cloud", "as_cloud", "coordinate_error", "merged_rows", "refuse_overflow"]
+__all__ = [
+    "Cloud",
+    "as_cloud",
+    "coordinate_error",
+    "merged_rows",
+    "refuse_overflow",
+    "warn_of_degrees",
+]
 
 _FLOAT64 = np.dtype(np.float64)
 
@@ -38,9 +54,13 @@ class Cloud(Record):
     points : (n, 2) or (n, 3) float64
         Read-only, C-contiguous and nobody else's: row i is point i everywhere.
         Whether all numbers are finite is seen by the core, which reads them anyway.
+    crs : pyproj.CRS or None
+        The coordinate reference system that came with the points; nothing is computed
+        with it.
     """
 
     points: FloatArray
+    crs: Any = None
 
     def __len__(self) -> int:
         return len(self.points)
@@ -54,9 +74,11 @@ def as_cloud(points: Any, dimension: int | None = None) -> Cloud:
     points : array-like of shape (n, 2) or (n, 3), DataFrame of so many columns, or Cloud
         Anything that NumPy understands as real numbers: integers, floats of any size,
         lists, objects with ``__array__``. No point at all is ``numpy.empty((0, 2))`` in
-        the plane and ``numpy.empty((0, 3))`` in space.
+        the plane and ``numpy.empty((0, 3))`` in space. Or a PointTable; a GeoDataFrame or
+        GeoSeries of Points; shapely Points; one MultiPoint.
     dimension : {2, 3}, optional
-        Take clouds of so many columns alone; by default, both.
+        Take clouds of so many columns alone; by default, both. Of geometries, elevations
+        are left out unless it is 3.
 
     Returns
     -------
@@ -78,9 +100,33 @@ def as_cloud(points: Any, dimension: int | None = None) -> Cloud:
         if points.points.shape[1] in allowed:
             return points
         points = points.points
+    elif isinstance(points, PointTable):
+        return Cloud(as_cloud(points.points, dimension).points, points.crs)
     elif isinstance(points, str | bytes | os.PathLike):
         raise _coercion.path_error(points)
+    elif _geopoints.holds_geometries(points):
+        places = _geopoints.point_table(points, dimension or 2)
+        return Cloud(read_only(places), _geopoints.crs_of(points))
     return Cloud(read_only(_coercion.table_of_floats(points, dimension)))
+
+
+def warn_of_degrees(cloud: Cloud) -> None:
+    """Warn that a radius has no meaning among longitudes and latitudes.
+
+    Warns
+    -----
+    GeographicCoordinatesWarning
+        If the reference system of the cloud is a geographic one.
+    """
+    if not getattr(cloud.crs, "is_geographic", False):
+        return
+    warnings.warn(
+        f"the points are longitudes and latitudes ({cloud.crs.name}): a radius in degrees is "
+        "a shorter way east than north, and areas are no areas; project them first: "
+        "frame.to_crs(frame.estimate_utm_crs()), or an equal-area system of your country",
+        GeographicCoordinatesWarning,
+        stacklevel=user_stacklevel(),
+    )
 
 
 def coordinate_error(points: FloatArray) -> CloudError:

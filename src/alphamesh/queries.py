@@ -10,6 +10,7 @@ import numpy as np
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels import orient2
 from alphamesh._kernels.outlines import nearest2, segment_tree2
+from alphamesh.errors import ParameterError
 from alphamesh.measures import scaled_points
 from alphamesh.points import as_cloud, coordinate_error
 
@@ -74,15 +75,29 @@ class EdgeTree(Record):
     tree: SegmentTree | None
 
 
-def as_queries(queries: Any) -> FloatArray:
+def as_queries(queries: Any, crs: Any = None) -> FloatArray:
     """Return queries as a table of finite numbers.
+
+    Parameters
+    ----------
+    queries : array-like of shape (q, 2)
+    crs : pyproj.CRS, optional
+        The reference system that queries with one must be in.
 
     Raises
     ------
     CloudShapeError, NonFiniteError
         If they are not; the message names the rows.
+    ParameterError
+        If they are in another reference system.
     """
-    table = as_cloud(queries, 2).points
+    cloud = as_cloud(queries, 2)
+    table = cloud.points
+    if crs is not None and cloud.crs is not None and cloud.crs != crs:
+        raise ParameterError(
+            f"the points asked about are in {cloud.crs.name}, the shape in {crs.name}; "
+            "project them: points.to_crs(shape.crs)"
+        )
     if not np.isfinite(table).all():
         raise coordinate_error(table)
     return table

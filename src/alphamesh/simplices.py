@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -48,6 +48,11 @@ class SimplexSet(Record):
     def points(self) -> FloatArray:
         """The cloud, ``(n, 2)`` float64; duplicates and all."""
         return self.filtration.points
+
+    @property
+    def crs(self) -> Any:
+        """The coordinate reference system that came with the points, or None."""
+        return self.filtration.crs
 
     # Which simplices
 
@@ -172,8 +177,13 @@ class SimplexSet(Record):
 
     # What to do with it
 
-    def mesh(self) -> Mesh:
+    def mesh(self, point_data: Any = None) -> Mesh:
         """Return the complex as the mesh that is written to files.
+
+        Parameters
+        ----------
+        point_data : mapping, DataFrame or PointTable, optional
+            Columns of the points, one number for each, to stay with the vertices.
 
         Returns
         -------
@@ -181,8 +191,18 @@ class SimplexSet(Record):
             The triangles, the singular edges as lines and the isolated vertices as
             vertices, over all rows of `points`. The numbers ``"radius"`` of its cells
             are their filtration values.
+
+        Raises
+        ------
+        ParameterError
+            If a column has not one value for each point.
+
+        Warns
+        -----
+        LossyFormatWarning
+            If columns hold no numbers, which meshes cannot hold: they are left out.
         """
-        from alphamesh.io.meshes import Mesh
+        from alphamesh.io.meshes import Mesh, vertex_data
 
         _, edge_radii, triangle_radii = self.filtration.radii
         return Mesh(
@@ -192,6 +212,7 @@ class SimplexSet(Record):
                 "line": self.singular_edges,
                 "triangle": self.triangles,
             },
+            point_data=vertex_data(point_data, len(self.points)),
             cell_data={
                 "radius": {
                     "vertex": np.zeros(len(self.isolated_vertices)),
@@ -207,6 +228,7 @@ class SimplexSet(Record):
         *,
         file_format: str | None = None,
         keep_all: bool = False,
+        point_data: Any = None,
     ) -> None:
         """Write the complex to a mesh file, whole or not at all.
 
@@ -221,6 +243,9 @@ class SimplexSet(Record):
             A key of ``alphamesh.MESH_FORMATS``; by default the extension of `path`.
         keep_all : bool, default False
             Write duplicates, too, so that the rows of the file are those of `points`.
+        point_data : mapping, DataFrame or PointTable, optional
+            Columns of the points, one number for each: they become numbers of the
+            vertices, where the format holds such.
 
         Raises
         ------
@@ -234,11 +259,17 @@ class SimplexSet(Record):
         Warns
         -----
         LossyFormatWarning
-            If the format leaves out singular edges or isolated vertices.
+            If the format leaves out singular edges or isolated vertices, or columns of
+            `point_data`.
         """
-        from alphamesh.io.meshes import write_mesh
+        from alphamesh.io.meshes import mesh_format, tell_of_lost_data, write_mesh
 
-        write_mesh(self.mesh(), path, file_format=file_format, keep_all=keep_all)
+        chosen = mesh_format(path, file_format)
+        if point_data is not None and not chosen.point_data:
+            tell_of_lost_data(path, chosen.name)
+            point_data = None
+        mesh = self.mesh(point_data)
+        write_mesh(mesh, path, file_format=file_format, keep_all=keep_all)
 
     def plot(self, ax: Axes | None = None) -> Drawing:
         """Draw the complex on matplotlib axes, new ones if `ax` is None.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -44,6 +44,11 @@ class SimplexSet3D(Record):
     def points(self) -> FloatArray:
         """The cloud, ``(n, 3)`` float64; duplicates and all."""
         return self.filtration.points
+
+    @property
+    def crs(self) -> Any:
+        """The coordinate reference system that came with the points, or None."""
+        return self.filtration.crs
 
     # Which simplices
 
@@ -226,11 +231,13 @@ class SimplexSet3D(Record):
 
     # What to do with it
 
-    def mesh(self, *, surface: bool = False) -> Mesh:
+    def mesh(self, point_data: Any = None, *, surface: bool = False) -> Mesh:
         """Return the complex as the mesh that is written to files.
 
         Parameters
         ----------
+        point_data : mapping, DataFrame or PointTable, optional
+            Columns of the points, one number for each, to stay with the vertices.
         surface : bool, default False
             Put the boundary triangles, counter-clockwise seen from outside, in the place
             of the tetrahedra.
@@ -242,7 +249,7 @@ class SimplexSet3D(Record):
             isolated vertices as vertices, over all rows of `points`. The numbers
             ``"radius"`` of its cells are their filtration values.
         """
-        from alphamesh.io.meshes import Mesh
+        from alphamesh.io.meshes import Mesh, vertex_data
 
         _, edge_radii, triangle_radii, tetrahedron_radii = self.filtration.radii
         kinds = self._triangle_kinds
@@ -263,6 +270,7 @@ class SimplexSet3D(Record):
         return Mesh(
             self.points,
             {kind: rows for kind, (rows, _) in cells.items()},
+            vertex_data(point_data, len(self.points)),
             cell_data={"radius": {kind: values for kind, (_, values) in cells.items()}},
         )
 
@@ -272,6 +280,7 @@ class SimplexSet3D(Record):
         *,
         file_format: str | None = None,
         keep_all: bool = False,
+        point_data: Any = None,
     ) -> None:
         """Write the complex to a mesh file, whole or not at all.
 
@@ -282,10 +291,13 @@ class SimplexSet3D(Record):
 
         Parameters, errors and warnings are those of :meth:`alphamesh.AlphaShape.save`.
         """
-        from alphamesh.io.meshes import mesh_format, write_mesh
+        from alphamesh.io.meshes import mesh_format, tell_of_lost_data, write_mesh
 
-        surface = "tetra" not in mesh_format(path, file_format).cells
-        mesh = self.mesh(surface=surface)
+        chosen = mesh_format(path, file_format)
+        if point_data is not None and not chosen.point_data:
+            tell_of_lost_data(path, chosen.name)
+            point_data = None
+        mesh = self.mesh(point_data, surface="tetra" not in chosen.cells)
         write_mesh(mesh, path, file_format=file_format, keep_all=keep_all)
 
 

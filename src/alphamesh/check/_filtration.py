@@ -141,7 +141,9 @@ def _check_edge_radii(
         angle = signs(dot2, mesh.points, np.column_stack((ends, apex)))
         least[there] = np.minimum(least[there], above[coface])
         gabriel[there] &= angle >= 0
-        same = (angle != 0) | (radii[there] == above[coface])
+        # The same circle; a leg that rounds to more than the edge may add to the triangle.
+        own = radii[there]
+        same = (angle != 0) | (own == above[coface]) | (above[coface] - own == np.spacing(own))
         require(same, "edge radii: not that of the triangle whose right angle they face", there)
     require(radii <= least, "edge radii: greater than that of a triangle")
     require(

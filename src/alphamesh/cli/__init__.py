@@ -11,6 +11,7 @@ from alphamesh.errors import MissingLibraryError
 __all__ = ["main"]
 
 INTERRUPTED = 130
+NOTHING_LEFT = "Interrupted; no half-written file is left."
 
 
 def main(args: Sequence[str] | None = None) -> None:
@@ -43,6 +44,7 @@ def _run(args: Sequence[str] | None) -> int:
     except click.ClickException as error:
         error.show()
         return error.exit_code
-    except click.Abort:
+    except click.Abort:  # before the command itself, which tells of its own
+        click.echo(NOTHING_LEFT, err=True)
         return INTERRUPTED
     return code if isinstance(code, int) else 0

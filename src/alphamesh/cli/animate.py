@@ -8,11 +8,12 @@ from typing import Any
 import click
 
 from alphamesh.cli.building import Job, cloud_options, need_matplotlib, source_argument
-from alphamesh.cli.command import Command
-from alphamesh.cli.outputs import Output, Outputs, check_targets
+from alphamesh.cli.command import Command, setting
+from alphamesh.cli.files import STREAM, FilmFile
+from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.summary import number
-from alphamesh.cli.types import FilmFile, RadiiType
+from alphamesh.cli.summary import length_text, number
+from alphamesh.cli.types import RadiiType
 
 __all__ = ["command"]
 
@@ -25,15 +26,11 @@ _EXAMPLES = (
 
 @click.command("animate", cls=Command, examples=_EXAMPLES)
 @source_argument
-@click.option(
-    "-o",
-    "--output",
-    "films",
-    type=FilmFile(),
-    multiple=True,
+@output_options(
+    FilmFile(".gif"),
+    "Write the film here (.mp4 needs ffmpeg)",
+    name="films",
     required=True,
-    help="Write the film here: .gif or .webp, or .mp4 where ffmpeg is installed. Can be "
-    "given several times.",
 )
 @click.option(
     "--radii",
@@ -87,7 +84,7 @@ def command(
     check_targets(films, source)
     need_matplotlib()
     for path in films:
-        need_writer(path.suffix.lower())
+        need_writer((setting("to") or ".gif") if path == STREAM else path.suffix.lower())
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
         job = Job.begin(source, options, steps)
@@ -98,8 +95,8 @@ def command(
                 look = {name: options[name] for name in ("fps", "hold", "width")}
                 job.complex.animate(path, radii=shown, progress=done, **look)
 
-        outputs.write([Output(path, write) for path in films], steps)
+        outputs.write([Output(path, write, ".gif") for path in films], steps)
     low, high = float(shown.min()), float(shown.max())
     facts = {"frames": len(shown), "radii": shown}
-    lines = {"Frames": f"{len(shown):,}", "Radii": f"{number(low)} to {number(high)}"}
+    lines = {"Frames": f"{len(shown):,}", "Radii": f"{number(low)} to {length_text(high)}"}
     job.tell(facts, lines, outputs)

@@ -9,12 +9,28 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from alphamesh.cli.command import json_option, quiet_option, threads_option
+from alphamesh.cli.command import (
+    json_option,
+    overwrite_option,
+    quiet_option,
+    setting,
+    threads_option,
+    units_option,
+)
+from alphamesh.cli.files import FigureFile
 from alphamesh.cli.inputs import Input, InputOptions, load, sampling_options, table_options
 from alphamesh.cli.outputs import Outputs, write_bytes
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.summary import counted, points_text, print_json, print_lines, size_text
-from alphamesh.cli.types import AUTO, RadiusType
+from alphamesh.cli.summary import (
+    counted,
+    length_text,
+    points_text,
+    print_json,
+    print_lines,
+    size_text,
+)
+from alphamesh.cli.types import AUTO, RadiusType, Rule, SourceType
+from alphamesh.errors import DimensionError
 
 if TYPE_CHECKING:
     from alphamesh.complex import AlphaComplex
@@ -24,14 +40,16 @@ __all__ = [
     "Job",
     "cloud_options",
     "need_matplotlib",
+    "plot_option",
     "radius_option",
+    "radius_text",
     "save_figure",
     "source_argument",
 ]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-source_argument = click.argument("source", metavar="INPUT")
+source_argument = click.argument("source", metavar="INPUT", type=SourceType())
 
 radius_option = click.option(
     "-r",
@@ -39,13 +57,20 @@ radius_option = click.option(
     type=RadiusType(),
     default=AUTO,
     show_default=True,
-    help="Radius in the units of the points, or the rule that chooses it.",
+    help="Radius in the units of the points, or the rule that chooses it, such as "
+    "all-points or topology:holes=2.",
 )
+
+
+def plot_option(what: str) -> Callable[[Function], Function]:
+    """Return a decorator that adds --plot; `what` is its help."""
+    return click.option("--plot", "picture", type=FigureFile(), metavar="FILE", help=what)
 
 
 def cloud_options(command: Function) -> Function:
     """Add the options of every command that reads a cloud and tells of it."""
-    for option in (quiet_option, json_option, threads_option, table_options, sampling_options):
+    common = (quiet_option, json_option, units_option, overwrite_option, threads_option)
+    for option in (*common, table_options, sampling_options):
         command = option(command)
     return command
 
@@ -65,24 +90,47 @@ class Job:
     as_json: bool
 
     @classmethod
-    def begin(cls, source: str, options: dict[str, Any], steps: Steps) -> Job:
-        """Read `source` and build its complex; of `options`, those of `cloud_options` count."""
+    def begin(
+        cls,
+        source: str,
+        options: dict[str, Any],
+        steps: Steps,
+        *,
+        attributes: bool = False,
+        crs: str | None = None,
+    ) -> Job:
+        """Read `source` and build its complex; of `options`, those of `cloud_options` count.
+
+        With `attributes`, other columns of its file are read, too. `crs` is the reference
+        system of points that come with none.
+        """
         from alphamesh.complex import AlphaComplex
 
         of_input = {field.name: options[field.name] for field in fields(InputOptions)}
-        given = load(source, InputOptions(**of_input), steps)
+        given = load(source, InputOptions(**of_input), steps, attributes=attributes)
+        if crs is not None:
+            given = given.placed(crs)
         with steps.step(f"Triangulating {counted(len(given.points), 'point')}") as done:
-            built = AlphaComplex(given.points, threads=options["threads"], progress=done)
+            built = AlphaComplex(given.cloud, threads=options["threads"], progress=done)
         return cls(given, built, options["as_json"])
 
-    def choose(self, radius: float | str, steps: Steps) -> RadiusChoice:
+    def choose(self, radius: float | Rule, steps: Steps) -> RadiusChoice:
         """Return the radius given, or the one that a rule chooses."""
         from alphamesh.radius import RadiusChoice
 
-        if not isinstance(radius, str):
+        if not isinstance(radius, Rule):
             return RadiusChoice(radius, "given", "Given on the command line.")
         with steps.step("Choosing the radius"):
-            return self.complex.choose_radius(radius)
+            name = None if radius.name == AUTO else radius.name
+            return self.complex.choose_radius(name, **radius.options)
+
+    def need_plane(self) -> None:
+        """Refuse points in space, of which the command could not tell."""
+        if self.complex.points.shape[1] == 3:
+            raise DimensionError(
+                "this command is for points in the plane, and these are in space; choose two "
+                "columns with --columns, or make a mesh of them with alphamesh mesh"
+            )
 
     @property
     def duplicates(self) -> int:
@@ -93,12 +141,16 @@ class Job:
         """Print input, results and files; end with an error if a file failed."""
         points = len(self.complex.points)
         sizes = outputs.sizes()
-        if self.as_json:
+        units = setting("units")
+        if outputs.streamed:
+            pass  # standard output is taken
+        elif self.as_json:
             print_json(
                 {
                     "input": self.given.facts,
                     "points": points,
                     "duplicates": self.duplicates,
+                    **({"units": units} if units else {}),
                     **facts,
                     "files": [{"path": path, "bytes": size} for path, size in sizes.items()],
                     "failures": outputs.failures,
@@ -115,6 +167,11 @@ class Job:
                 }
             )
         outputs.raise_failures()
+
+
+def radius_text(choice: RadiusChoice) -> str:
+    """Return a radius, and where it comes from."""
+    return f"{length_text(choice.radius)}  ({choice.rule})"
 
 
 def save_figure(figure: Any, path: Path, dpi: float | None = None) -> None:

@@ -5,22 +5,31 @@ from __future__ import annotations
 import errno
 import re
 import traceback
-from collections.abc import Sequence
-from typing import Any
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, TypeVar
 
 import click
 
-from alphamesh.cli import INTERRUPTED
-from alphamesh.errors import AlphameshError, ParameterError
+from alphamesh.cli import INTERRUPTED, NOTHING_LEFT
+from alphamesh.errors import AlphameshError, AlphameshWarning, ParameterError
 
 __all__ = [
     "Command",
     "Explained",
+    "explain",
     "json_option",
+    "kept_option",
+    "overwrite_option",
     "quiet_option",
+    "setting",
     "threads_option",
+    "units_option",
     "write_section",
 ]
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 _DEBUG = click.Option(
     ["--debug"], is_flag=True, help="Show where in the program an error arose."
@@ -43,6 +52,19 @@ class Misused(Explained):
     exit_code = 2
 
 
+# The sections of a help text, and the parameters in each that are not of the command alone.
+_SECTIONS: dict[str, tuple[str, ...]] = {
+    "Many files": ("folder", "jobs", "keep_going"),
+    "Points from images": ("count", "threshold", "invert", "seed", "jitter", "replace"),
+    "Files of points": (
+        *("columns", "file_format", "delimiter", "decimal", "header"),
+        *("skip", "comment", "encoding", "key", "layer"),
+    ),
+    "General": ("threads", "overwrite", "units", "as_json", "quiet", "debug"),
+}
+_SECTION_OF = {name: title for title, names in _SECTIONS.items() for name in names}
+
+
 class Command(click.Command):
     """A command whose expected errors end in a message and an exit code.
 
@@ -54,6 +76,24 @@ class Command(click.Command):
         self.params.append(_DEBUG)
         self.examples = examples
 
+    def sections(self, ctx: click.Context) -> dict[str, list[tuple[str, str]]]:
+        """Return the options in sections: how each is written, and what it does."""
+        found: dict[str, list[tuple[str, str]]] = {"Options": []}
+        found.update({title: [] for title in _SECTIONS})
+        options = [param for param in self.get_params(ctx) if isinstance(param, click.Option)]
+        for option in options:
+            record = option.get_help_record(ctx)
+            if record is not None:
+                section = "General" if option.is_eager else _SECTION_OF.get(option.name or "")
+                found[section or "Options"].append(record)
+        return {title: records for title, records in found.items() if records}
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the options, those of the command itself first."""
+        for title, records in self.sections(ctx).items():
+            with formatter.section(title):
+                formatter.write_dl(records)
+
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """End the help with the examples."""
         write_section(formatter, "Examples", self.examples)
@@ -62,9 +102,10 @@ class Command(click.Command):
         """Run the command; translate what is known to go wrong."""
         debug = ctx.params.pop("debug")
         try:
-            return super().invoke(ctx)
+            with _warnings_as_lines():
+                return super().invoke(ctx)
         except KeyboardInterrupt:
-            click.echo("Interrupted; no half-written file is left.", err=True)
+            click.echo(NOTHING_LEFT, err=True)
             raise click.exceptions.Exit(INTERRUPTED) from None
         except (AlphameshError, ImportError, MemoryError, OSError) as error:
             if getattr(error, "errno", None) == errno.EPIPE:
@@ -72,7 +113,20 @@ class Command(click.Command):
             if debug:
                 click.echo(traceback.format_exc(), err=True)
             kind = Misused if isinstance(error, ParameterError) else Explained
-            raise kind(_message(error)) from None
+            raise kind(explain(error)) from None
+
+
+@contextmanager
+def _warnings_as_lines() -> Iterator[None]:
+    """Show warnings of alphamesh as one line each, whenever they come."""
+
+    def show(message: Warning | str, *_: Any, **__: Any) -> None:
+        click.echo(f"{click.style('Warning:', fg='yellow')} {message}", err=True)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", AlphameshWarning)
+        warnings.showwarning = show
+        yield
 
 
 def write_section(formatter: click.HelpFormatter, title: str, lines: Sequence[str]) -> None:
@@ -84,7 +138,8 @@ def write_section(formatter: click.HelpFormatter, title: str, lines: Sequence[st
 
 # Errors are written for Python, where parameters are keywords; here they are options.
 _OPTION_OF = {
-    "file_format": "--format",
+    **{name: f"--{name}" for name in ("crs", "layer", "aggregate", "elevation", "simplify")},
+    "file_format": "--from",
     "n": "--points",
     **{name: f"--{name}" for name in ("jitter", "replace", "invert", "threshold", "header")},
     **{name: f"--{name}" for name in ("columns", "delimiter", "decimal", "comment")},
@@ -103,7 +158,8 @@ def _as_option(found: re.Match[str]) -> str:
     return f"{_OPTION_OF[name]} {plain}".rstrip()
 
 
-def _message(error: BaseException) -> str:
+def explain(error: BaseException) -> str:
+    """Return what to tell of an error that is known to happen."""
     if isinstance(error, AlphameshError):
         text = _KEYWORD.sub(_as_option, str(error))
         return _SAMPLE_MASK.sub("alphamesh sample", text)
@@ -112,6 +168,29 @@ def _message(error: BaseException) -> str:
     return f"{type(error).__name__}: {error} (--debug shows where)"
 
 
+def setting(name: str) -> Any:
+    """Return the value of an option made by `kept_option`, None outside of a command."""
+    context = click.get_current_context(silent=True)
+    return None if context is None else context.meta.get(f"alphamesh.{name}")
+
+
+def _keep(ctx: click.Context, param: click.Parameter, value: Any) -> None:
+    ctx.meta[f"alphamesh.{param.name}"] = value
+
+
+def kept_option(*flags: str, **settings: Any) -> Callable[[Function], Function]:
+    """Return an option that no command takes as a parameter: `setting` tells its value."""
+    return click.option(*flags, expose_value=False, callback=_keep, **settings)
+
+
+units_option = kept_option(
+    "--units", metavar="NAME", help="Name the units of lengths in what is told, such as m."
+)
+overwrite_option = kept_option(
+    "--overwrite/--no-overwrite",
+    default=True,
+    help="Replace files that are there already, or stop before the work.  [default: overwrite]",
+)
 json_option = click.option(
     "--json", "as_json", is_flag=True, help="Print one JSON object instead of text."
 )

@@ -12,14 +12,15 @@ from alphamesh.cli.building import (
     Job,
     cloud_options,
     need_matplotlib,
+    plot_option,
     save_figure,
     source_argument,
 )
 from alphamesh.cli.command import Command
-from alphamesh.cli.outputs import Output, Outputs, check_targets
+from alphamesh.cli.files import MeshFile
+from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.summary import number
-from alphamesh.cli.types import FigureFile, MeshFile
+from alphamesh.cli.summary import area_text
 
 if TYPE_CHECKING:
     from alphamesh.delaunay import Delaunay
@@ -39,15 +40,7 @@ _EXAMPLES = (
 
 @click.command("delaunay", cls=Command, examples=_EXAMPLES)
 @source_argument
-@click.option(
-    "-o",
-    "--output",
-    "meshes",
-    type=MeshFile(),
-    multiple=True,
-    help="Write the triangles here; the extension tells the format. Can be given several "
-    "times.",
-)
+@output_options(MeshFile(".ply"), "Write the triangles here", name="meshes")
 @click.option(
     "--frame",
     "shape",
@@ -63,7 +56,7 @@ _EXAMPLES = (
     metavar="D",
     help="Distance of points on the frame.  [default: as points]",
 )
-@click.option("--plot", "picture", type=FigureFile(), help="Draw the triangulation.")
+@plot_option("Draw the triangulation.")
 @cloud_options
 def command(
     source: str,
@@ -86,9 +79,10 @@ def command(
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
         job = Job.begin(source, options, steps)
+        job.need_plane()
         with steps.step("Finding neighbours"):
             made = _made(job, shape, margin, spacing)
-        files = [Output(path, lambda path: _write(made, path)) for path in meshes]
+        files = [Output(path, lambda path: _write(made, path), ".ply") for path in meshes]
         if picture is not None:
             files.append(Output(picture, lambda path: _draw(made, path)))
         outputs.write(files, steps)
@@ -121,7 +115,7 @@ def _told(made: Delaunay | FramedDelaunay) -> tuple[dict[str, Any], dict[str, st
     lines = {
         "Triangles": f"{len(made.triangles):,}",
         "Edges": f"{len(made.edges):,}, {hull_edges:,} of them on the boundary",
-        "Area": number(area),
+        "Area": area_text(area),
     }
     if isinstance(made, FramedDelaunay):
         facts |= {

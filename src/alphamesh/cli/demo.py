@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from alphamesh.cli.batch import make_folder
 from alphamesh.cli.command import Command, json_option, quiet_option, threads_option
 from alphamesh.cli.gallery import Exhibit, gallery_page
+from alphamesh.cli.inputs import seed_option
 from alphamesh.cli.outputs import check_targets, write_bytes
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, print_json
 from alphamesh.cli.write_points import write_points
-from alphamesh.errors import FileWriteError, MissingLibraryError, ParameterError
+from alphamesh.errors import MissingLibraryError, ParameterError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -58,14 +60,15 @@ _EXAMPLES = (
 @click.option(
     "-n",
     "--points",
-    "count",
+    "each",
     type=click.IntRange(min=1),
+    metavar="N",
     default=2000,
     show_default=True,
     help="How many points to draw from each shape.",
 )
 @click.option("--quick", is_flag=True, help="Make no films, which take longest.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
+@seed_option
 @threads_option
 @json_option
 @quiet_option
@@ -80,7 +83,7 @@ def command(folder: Path, names: tuple[str, ...], **options: Any) -> None:
     import alphamesh.plot  # noqa: F401 - if matplotlib is missing, say so before the work
 
     chosen = _chosen(names)
-    _make(folder)
+    make_folder(folder)
     check_targets([folder / "index.html"])
     exhibits = []
     with Steps(quiet=options["quiet"]) as steps, steps.step("Gallery") as done:
@@ -111,21 +114,6 @@ def _chosen(names: tuple[str, ...]) -> list[str]:
     return list(dict.fromkeys(names or DEMO_SHAPES))
 
 
-def _make(folder: Path) -> None:
-    """Make the folder, though not the folders above it."""
-    try:
-        folder.mkdir(exist_ok=True)
-    except FileNotFoundError as error:
-        raise FileWriteError(
-            f"cannot make the folder {str(folder)!r}: {str(folder.parent)!r} does not exist; "
-            "create it first, or choose another place"
-        ) from error
-    except OSError as error:
-        raise FileWriteError(
-            f"cannot make the folder {str(folder)!r}: {error.strerror}; choose another place"
-        ) from error
-
-
 def _exhibit(
     folder: Path, name: str, options: dict[str, Any], done: Callable[[float], None]
 ) -> Exhibit:
@@ -133,7 +121,7 @@ def _exhibit(
     from alphamesh.complex import AlphaComplex
     from alphamesh.sampling import DEMO_SHAPES, demo_cloud, demo_mask
 
-    points = demo_cloud(name, options["count"], seed=options["seed"])
+    points = demo_cloud(name, options["each"], seed=options["seed"] or 0)
     built = AlphaComplex(points, threads=options["threads"])
     choice = built.choose_radius()
     shape = built.at(choice.radius)

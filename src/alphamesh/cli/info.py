@@ -3,25 +3,17 @@
 from __future__ import annotations
 
 import math
-import zipfile
-from pathlib import Path
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
 
 from alphamesh.cli.command import Command, json_option, quiet_option, threads_option
-from alphamesh.cli.inputs import (
-    DEMO,
-    IMAGE,
-    MESH,
-    InputOptions,
-    demo_shape,
-    kind_of,
-    load,
-    table_options,
-)
+from alphamesh.cli.inputs import InputOptions, demo_shape, load, table_options
+from alphamesh.cli.kinds import DEMO, IMAGE, MESH, POINTS, holds, ply_elements
 from alphamesh.cli.progress import Steps
+from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted, number, points_text, print_json, print_lines
 from alphamesh.measures import edge_lengths
 
@@ -38,7 +30,6 @@ _NOUNS = {
     "triangle": ("triangle", "triangles"),
     "tetra": ("tetrahedron", "tetrahedra"),
 }
-_HEADER_BYTES = 1 << 16
 _DIMENSIONS = {
     -1: "no points",
     0: "0, all at one place",
@@ -69,16 +60,14 @@ def command(source: str, **options: Any) -> None:
     """
     threads, as_json, quiet = (options.pop(name) for name in ("threads", "as_json", "quiet"))
     given = InputOptions(**options)
-    kind = kind_of(source)
     with Steps(quiet=quiet) as steps:
-        if kind == DEMO:
-            facts, lines = _demo(source)
-        elif kind == IMAGE:
-            facts, lines = _image(source, steps)
-        elif kind == MESH:
-            facts, lines = _mesh(source, steps)
+        if source == STDIN:
+            with from_standard_input(given.suffix) as path:
+                facts, lines = _told(str(path), given, threads, steps)
+            lines = {k: text.replace(str(path), "standard input") for k, text in lines.items()}
+            facts["name"] = STDIN
         else:
-            facts, lines = _points_or_mesh(source, given, threads, steps)
+            facts, lines = _told(source, given, threads, steps)
     if as_json:
         print_json(facts)
     else:
@@ -88,18 +77,18 @@ def command(source: str, **options: Any) -> None:
 Told = tuple[dict[str, Any], dict[str, str]]
 
 
-def _points_or_mesh(
-    source: str, options: InputOptions, threads: int | None, steps: Steps
-) -> Told:
-    """Tell of a file whose format holds points or meshes."""
-    suffix = Path(source).suffix.lower()
-    if suffix in {".npz", ".ply"} and Path(source).is_file():
-        if suffix == ".npz" and _is_mesh_archive(source):
-            return _mesh(source, steps)
-        elements = _ply_elements(source) if suffix == ".ply" else {}
-        if elements.get("face", 0) or elements.get("edge", 0):
-            return _ply(source, elements, steps)
-    return _points(source, options, threads, steps)
+def _told(source: str, given: InputOptions, threads: int | None, steps: Steps) -> Told:
+    """Tell of a demo shape or a file, whatever it holds."""
+    kind = holds(source, given.file_format)
+    if kind == DEMO:
+        return _demo(source)
+    if kind == IMAGE:
+        return _image(source, steps)
+    if kind == POINTS:
+        return _points(source, given, threads, steps)
+    if PurePath(source).suffix.lower() == ".ply":
+        return _ply(source, ply_elements(source), steps)
+    return _mesh(source, steps)
 
 
 def _points(source: str, options: InputOptions, threads: int | None, steps: Steps) -> Told:
@@ -271,23 +260,3 @@ def _ply(source: str, counts: dict[str, int], steps: Steps) -> Told:
     if len(points):
         _tell_bounds(points, facts, lines)
     return facts, lines
-
-
-def _ply_elements(source: str) -> dict[str, int]:
-    """Return the count of each element that the header of a PLY file tells."""
-    with Path(source).open("rb") as file:
-        words = file.read(_HEADER_BYTES).partition(b"end_header")[0].split()
-    return {
-        name.decode(errors="replace"): int(count)
-        for word, name, count in zip(words, words[1:], words[2:], strict=False)
-        if word == b"element" and count.isdigit()
-    }
-
-
-def _is_mesh_archive(source: str) -> bool:
-    """Return whether an NPZ file holds a mesh, not just points."""
-    try:
-        with zipfile.ZipFile(source) as archive:
-            return "triangles.npy" in archive.namelist()
-    except zipfile.BadZipFile:
-        return False  # whoever reads it next explains

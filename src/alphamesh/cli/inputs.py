@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -11,35 +11,26 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
+from alphamesh.cli.kinds import DEMO, DEMO_PREFIX, MESH, POINTS, kind_of
 from alphamesh.cli.progress import Steps
+from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted
 from alphamesh.cli.types import ColumnsType
+from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
     from alphamesh.sampling import DemoShape
+    from alphamesh.table import PointTable
 
 __all__ = [
-    "DEMO",
-    "IMAGE",
-    "MESH",
-    "POINTS",
     "Input",
     "InputOptions",
     "demo_shape",
-    "kind_of",
     "load",
     "sampling_options",
+    "seed_option",
     "table_options",
 ]
-
-DEMO, IMAGE, MESH, POINTS = "demo", "image", "mesh", "points"
-
-_DEMO_PREFIX = "demo:"
-_IMAGE_SUFFIXES = frozenset(
-    {".avif", ".bmp", ".gif", ".ico", ".jp2", ".jpeg", ".jpg", ".pbm", ".pcx", ".pgm", ".png"}
-    | {".pnm", ".ppm", ".qoi", ".tga", ".tif", ".tiff", ".webp"}
-)
-_MESH_SUFFIXES = frozenset({".vtu", ".vtk", ".msh", ".obj", ".off", ".stl"})
 
 _DEFAULT_COUNT = 2000
 _DEFAULT_THRESHOLD = 0.5
@@ -67,6 +58,17 @@ class InputOptions:
     comment: str | None = None
     encoding: str | None = None
     key: str | None = None
+    layer: str | None = None
+
+    @property
+    def suffix(self) -> str | None:
+        """The extension that the option --from stands for."""
+        return self.file_format and f".{self.file_format.lower().removeprefix('.')}"
+
+    @staticmethod
+    def table_names() -> tuple[str, ...]:
+        """Return the names of what can be said of a table."""
+        return tuple(_TABLE)
 
     def table(self) -> dict[str, Any]:
         """Return what is said of a table, as keywords of ``read_points``."""
@@ -91,7 +93,7 @@ _SAMPLING = {
 _OF_IMAGES = {name: _SAMPLING[name] for name in ("threshold", "invert")}
 _TABLE = {
     "columns": "--columns",
-    "file_format": "--format",
+    "file_format": "--from",
     "delimiter": "--delimiter",
     "decimal": "--decimal",
     "header": "--header/--no-header",
@@ -99,7 +101,9 @@ _TABLE = {
     "comment": "--comment",
     "encoding": "--encoding",
     "key": "--key",
+    "layer": "--layer",
 }
+_OF_TABLES = {name: option for name, option in _TABLE.items() if name != "file_format"}
 
 
 _SAMPLING_OPTIONS: dict[str, dict[str, Any]] = {
@@ -135,12 +139,14 @@ _SAMPLING_OPTIONS: dict[str, dict[str, Any]] = {
 _TABLE_OPTIONS: dict[str, dict[str, Any]] = {
     "columns": {
         "type": ColumnsType(),
-        "metavar": "X,Y",
-        "help": "Table: columns by name or by number from 0.  [default: x,y]",
+        "metavar": "X,Y[,Z]",
+        "help": "Table: columns by name or by number from 0; three are points in space.  "
+        "[default: x,y]",
     },
     "file_format": {
-        "metavar": "NAME",
-        "help": "Table: its format, such as csv.  [default: the extension's]",
+        "metavar": "FORMAT",
+        "help": "Format of INPUT, such as csv.  [default: the extension's; of standard "
+        "input: found]",
     },
     "delimiter": {
         "metavar": "CHAR",
@@ -159,16 +165,54 @@ _TABLE_OPTIONS: dict[str, dict[str, Any]] = {
         "metavar": "NAME",
         "help": "NPZ: the array that holds the points.  [default: points]",
     },
+    "layer": {
+        "metavar": "NAME",
+        "help": "GeoPackage: the layer that holds the points.  [default: the only one]",
+    },
 }
 
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """A cloud, and where it comes from, for people (`text`) and scripts (`facts`)."""
+    """A cloud, and where it comes from, for people (`text`) and scripts (`facts`).
+
+    `table` holds other columns of its file and the reference system, if these were read.
+    """
 
     points: NDArray[np.float64]
     text: str
     facts: dict[str, Any]
+    table: PointTable | None = None
+
+    def placed(self, crs: str) -> Input:
+        """Return it with a reference system, which it must not have already, unless the same.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such system, or the points are in another one.
+        """
+        from alphamesh.table import PointTable
+
+        columns = {} if self.table is None else self.table.columns
+        table = PointTable(self.points, columns, crs)
+        known = None if self.table is None else self.table.crs
+        if known not in (None, table.crs):
+            raise ParameterError(
+                f"the points are in {known.name}, not in {crs}: leave --crs out, and project "
+                "the result with a GIS"
+            )
+        return replace(self, table=table)
+
+    @property
+    def cloud(self) -> PointTable | NDArray[np.float64]:
+        """The points with all that is known of them."""
+        return self.points if self.table is None else self.table
+
+
+def seed_option(command: Function) -> Function:
+    """Add --seed alone."""
+    return _with_options(command, {"seed": _SAMPLING_OPTIONS["seed"]})
 
 
 def sampling_options(command: Function) -> Function:
@@ -190,18 +234,10 @@ def _with_options(command: Function, options: dict[str, dict[str, Any]]) -> Func
     return command
 
 
-def kind_of(source: str) -> str:
-    """Return what `source` is by its name: "demo", "image", "mesh" or "points"."""
-    if source.startswith(_DEMO_PREFIX):
-        return DEMO
-    suffix = PurePath(source).suffix.lower()
-    if suffix in _IMAGE_SUFFIXES:
-        return IMAGE
-    return MESH if suffix in _MESH_SUFFIXES else POINTS
-
-
-def load(source: str, options: InputOptions, steps: Steps) -> Input:
-    """Return the cloud that `source` stands for.
+def load(
+    source: str, options: InputOptions, steps: Steps, *, attributes: bool = False
+) -> Input:
+    """Return the cloud that `source` stands for, with other columns if `attributes`.
 
     Raises
     ------
@@ -210,31 +246,53 @@ def load(source: str, options: InputOptions, steps: Steps) -> Input:
     AlphameshError
         If it cannot be read.
     """
-    kind = kind_of(source)
+    if source != STDIN:
+        return _load(source, source, options, steps, attributes)
+    with from_standard_input(options.suffix) as path:
+        read = _load(str(path), "standard input", options, steps, attributes)
+    return replace(read, facts={**read.facts, "name": STDIN})
+
+
+def _load(
+    source: str, name: str, options: InputOptions, steps: Steps, attributes: bool
+) -> Input:
+    """Return the cloud in a file called `name`."""
+    kind = kind_of(source, options.file_format)
     if kind == MESH:
         raise click.UsageError(
-            f"{source!r} is a mesh file already; give an image or points "
+            f"{name!r} is a mesh file already; give an image or points "
             f"(alphamesh info {source} tells what is in it)"
         )
     if kind == POINTS:
-        options.refuse(_SAMPLING, source, "which is a table: its points are taken as they are")
-        return _load_table(source, options, steps)
-    options.refuse(_TABLE, source, "which is no table")
+        options.refuse(_SAMPLING, name, "which is a table: its points are taken as they are")
+        return _load_table(source, name, options, steps, attributes)
+    options.refuse(_OF_TABLES, name, "which is no table")
     if kind == DEMO:
-        options.refuse(_OF_IMAGES, source, "a demo shape, which has no shades")
-    return _load_pixels(source, options, steps)
+        options.refuse(_OF_IMAGES, name, "a demo shape, which has no shades")
+    return _load_pixels(source, name, options, steps)
 
 
-def _load_table(source: str, options: InputOptions, steps: Steps) -> Input:
-    from alphamesh.io.points import read_points
+def _load_table(
+    source: str, name: str, options: InputOptions, steps: Steps, attributes: bool
+) -> Input:
+    from alphamesh.io.geo import GEO_FORMATS
+    from alphamesh.io.points import read_points, read_table
 
-    name = "standard input" if source == "-" else source
+    facts: dict[str, Any] = {"kind": POINTS, "name": source}
+    text = f"{name} (points)"
+    suffix = options.suffix or PurePath(source).suffix.lower()
+    if not (attributes or suffix in GEO_FORMATS):
+        with steps.step(f"Reading {name}"):
+            return Input(read_points(source, **options.table()), text, facts)
     with steps.step(f"Reading {name}"):
-        points = read_points(source, **options.table())
-    return Input(points, f"{name} (points)", {"kind": POINTS, "name": source})
+        table = read_table(source, **options.table())
+    if table.crs is not None:
+        facts["crs"] = table.crs.to_string()
+        text = f"{name} (points in {table.crs.name})"
+    return Input(table.points, text, facts, table)
 
 
-def _load_pixels(source: str, options: InputOptions, steps: Steps) -> Input:
+def _load_pixels(source: str, name: str, options: InputOptions, steps: Steps) -> Input:
     """Draw points from an image or a demo shape."""
     from alphamesh.io.images import read_mask
     from alphamesh.sampling import demo_mask, sample_pixels
@@ -242,8 +300,8 @@ def _load_pixels(source: str, options: InputOptions, steps: Steps) -> Input:
     count = _DEFAULT_COUNT if options.count is None else options.count
     threshold = _DEFAULT_THRESHOLD if options.threshold is None else options.threshold
     seed = _DEFAULT_SEED if options.seed is None else options.seed
-    kind = kind_of(source)
-    with steps.step(f"Drawing {counted(count, 'point')} from {source}"):
+    kind = kind_of(source, options.file_format)
+    with steps.step(f"Drawing {counted(count, 'point')} from {name}"):
         if kind == DEMO:
             mask = demo_mask(demo_shape(source).name)
         else:
@@ -260,7 +318,7 @@ def _load_pixels(source: str, options: InputOptions, steps: Steps) -> Input:
     noun = "demo shape" if kind == DEMO else "image"
     return Input(
         points,
-        f"{source} ({noun}, {width} x {height}, {counted(inside, 'pixel')} inside)",
+        f"{name} ({noun}, {width} x {height}, {counted(inside, 'pixel')} inside)",
         {
             "kind": kind,
             "name": source,
@@ -282,7 +340,7 @@ def demo_shape(source: str) -> DemoShape:
     """
     from alphamesh.sampling import DEMO_SHAPES
 
-    name = source.removeprefix(_DEMO_PREFIX)
+    name = source.removeprefix(DEMO_PREFIX)
     if name not in DEMO_SHAPES:
         listed = ", ".join(DEMO_SHAPES)
         raise click.UsageError(f"there is no demo shape {name!r}; choose among: {listed}")

@@ -1,181 +1,172 @@
-"""``alphamesh mesh``: from an image or points to a mesh."""
+"""``alphamesh mesh``: from images or points to meshes."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from alphamesh.cli.command import Command, json_option, quiet_option, threads_option
-from alphamesh.cli.inputs import Input, InputOptions, load, sampling_options, table_options
-from alphamesh.cli.outputs import Output, Outputs, check_targets, write_bytes
-from alphamesh.cli.progress import Steps
-from alphamesh.cli.summary import (
-    counted,
-    number,
-    points_text,
-    print_json,
-    print_lines,
-    size_text,
+from alphamesh.cli.batch import batch_options, only_one, run_batch, threads_each
+from alphamesh.cli.building import (
+    Job,
+    cloud_options,
+    need_matplotlib,
+    plot_option,
+    radius_option,
+    radius_text,
+    save_figure,
 )
-from alphamesh.cli.types import AUTO, FigureFile, MeshFile, RadiusType
+from alphamesh.cli.command import Command, setting
+from alphamesh.cli.files import MeshFile
+from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
+from alphamesh.cli.progress import Steps
+from alphamesh.cli.summary import area_text, length_text, volume_text
+from alphamesh.cli.types import SourceType
 
 if TYPE_CHECKING:
-    from alphamesh.complex import AlphaComplex
     from alphamesh.radius import RadiusChoice
     from alphamesh.shape import AlphaShape
+    from alphamesh.shape3d import AlphaShape3D
 
 __all__ = ["command"]
+
+_STREAM = ".ply"
 
 _EXAMPLES = (
     "alphamesh mesh shape.png -o mesh.vtu --plot mesh.png",
     "alphamesh mesh shape.png --points 20000 --seed 7 -o mesh.ply -o mesh.stl",
-    "alphamesh mesh trees.csv --columns easting,northing --radius 25 -o mesh.vtu",
-    "alphamesh mesh demo:cheese -o cheese.obj",
-    "alphamesh sample shape.png -o - | alphamesh mesh - --json",
+    "alphamesh mesh trees.csv --columns easting,northing --radius 25 --units m -o mesh.vtu",
+    "alphamesh mesh points.csv --radius topology:holes=2 -o mesh.obj",
+    "alphamesh mesh a.csv b.csv scan.ply --output-dir meshes --to vtu --jobs 2 --keep-going",
+    "alphamesh sample shape.png -o - | alphamesh mesh - -o - --to off",
 )
 
 
 @click.command("mesh", cls=Command, examples=_EXAMPLES)
-@click.argument("source", metavar="INPUT")
+@click.argument("sources", metavar="INPUT...", nargs=-1, required=True, type=SourceType())
+@output_options(MeshFile(_STREAM), "Write the mesh here", name="meshes", many=True)
+@batch_options
+@radius_option
 @click.option(
-    "-o",
-    "--output",
-    "meshes",
-    type=MeshFile(),
-    multiple=True,
-    help="Write the mesh here; the extension tells the format. Can be given several times.",
+    "--keep-columns",
+    is_flag=True,
+    help="Keep other columns of INPUT as numbers of the vertices.",
 )
-@click.option(
-    "-r",
-    "--radius",
-    type=RadiusType(),
-    default=AUTO,
-    show_default=True,
-    help="Radius in the units of the points, or the rule that chooses it.",
-)
-@click.option(
-    "--plot",
-    "picture",
-    type=FigureFile(),
-    help="Draw cloud, Delaunay triangulation and complex side by side.",
-)
-@sampling_options
-@table_options
-@threads_option
-@json_option
-@quiet_option
+@plot_option("Draw cloud, Delaunay triangulation and complex side by side.")
+@cloud_options
 def command(
-    source: str,
+    sources: tuple[str, ...],
     meshes: tuple[Path, ...],
-    radius: float | str,
     picture: Path | None,
     **options: Any,
 ) -> None:
-    """Make a mesh from an image or a point file.
+    """Make a mesh from an image or a file of points, or meshes of many.
 
     INPUT is a mask image (points are drawn from its white pixels), a file of
-    points (CSV, TSV, TXT, XYZ, NPY, NPZ, Parquet, PLY), "-" for a table on
+    points (CSV, TSV, TXT, XYZ, NPY, NPZ, Parquet, PLY), "-" for any of these on
     standard input, or demo:NAME for a built-in shape such as demo:annulus.
-    Without -o, the mesh is only described.
+    With --columns x,y,z the points are in space, the mesh is of tetrahedra.
+    Without -o, the mesh is only described. With --output-dir, a mesh of every
+    INPUT is written there, under its name.
     """
-    threads, as_json, quiet = (options.pop(name) for name in ("threads", "as_json", "quiet"))
+    if options["folder"] is not None:
+        if meshes or picture:
+            raise click.UsageError("-o and --plot are for one input, --output-dir for many")
+        options["threads"] = threads_each(options["threads"], options["jobs"])
+        work = partial(_mesh_file, options=options)
+        run_batch(work, sources, setting("to") or _STREAM, _COLUMNS, options)
+        return
+    source = only_one(sources, options)
     check_targets([*meshes, *([picture] if picture else [])], source)
-    if picture:
-        import alphamesh.plot  # noqa: F401 - if matplotlib is missing, say so before the work
+    need_matplotlib(picture is not None)
     outputs = Outputs()
-    with Steps(quiet=quiet) as steps:
-        given = load(source, InputOptions(**options), steps)
-        result = _build(given, radius, threads, steps)
-        outputs.write(_files(result, meshes, picture), steps)
-    if as_json:
-        print_json(_facts(result, outputs))
-    else:
-        print_lines(_lines(result, outputs))
-    outputs.raise_failures()
+    with Steps(quiet=options["quiet"]) as steps:
+        job, choice, shape = _made(source, options, steps)
+        files = [Output(path, _saver(job, shape, options), _STREAM) for path in meshes]
+        if picture is not None:
+            files.append(Output(picture, lambda path: _draw(job, choice, path)))
+        outputs.write(files, steps)
+    lines = _lines(choice, shape)
+    if not meshes:
+        lines["Written"] = "nothing; -o FILE writes the mesh"
+    job.tell({"dimension": job.complex.dimension, **_facts(choice, shape)}, lines, outputs)
 
 
-@dataclass(frozen=True, slots=True)
-class _Result:
-    """What the command has made."""
-
-    given: Input
-    complex: AlphaComplex
-    shape: AlphaShape
-    choice: RadiusChoice
-
-    @property
-    def duplicates(self) -> int:
-        """Points that repeat an earlier one."""
-        return len(self.complex.points) - len(self.complex.simplices[0])
+# What the summary of many files shows.
+_COLUMNS = ("points", "radius", "triangles", "tetrahedra", "area", "volume")
 
 
-def _build(given: Input, radius: float | str, threads: int | None, steps: Steps) -> _Result:
-    from alphamesh.complex import AlphaComplex
-    from alphamesh.radius import RadiusChoice
-
-    with steps.step(f"Triangulating {counted(len(given.points), 'point')}") as done:
-        built = AlphaComplex(given.points, threads=threads, progress=done)
-    with steps.step("Choosing the radius"):
-        choice = (
-            built.choose_radius(radius)
-            if isinstance(radius, str)
-            else RadiusChoice(radius, "given", "Given on the command line.")
-        )
-        shape = built.at(choice.radius)
-    return _Result(given, built, shape, choice)
-
-
-def _files(result: _Result, meshes: tuple[Path, ...], picture: Path | None) -> list[Output]:
-    files = [Output(path, result.shape.save) for path in meshes]
-    if picture is not None:
-        files.append(Output(picture, lambda path: _draw(result, path)))
-    return files
-
-
-def _draw(result: _Result, path: Path) -> None:
-    from alphamesh.plot import figure_bytes, plot_overview
-
-    figure = plot_overview(result.complex, result.choice.radius)
-    write_bytes(figure_bytes(figure, path.suffix.lower().removeprefix(".")), path)
-
-
-def _facts(result: _Result, outputs: Outputs) -> dict[str, Any]:
-    """Return the summary for scripts."""
-    shape, choice = result.shape, result.choice
+def _mesh_file(source: str, path: Path, options: dict[str, Any]) -> dict[str, Any]:
+    """Make one mesh of many."""
+    with Steps(quiet=True) as steps:
+        job, choice, shape = _made(source, options, steps)
+    _saver(job, shape, options)(path)
     return {
-        "input": result.given.facts,
-        "points": len(result.complex.points),
-        "duplicates": result.duplicates,
-        "dimension": result.complex.dimension,
+        "input": job.given.facts,
+        "points": len(job.complex.points),
+        "duplicates": job.duplicates,
+        "dimension": job.complex.dimension,
+        **_facts(choice, shape),
+    }
+
+
+def _made(
+    source: str, options: dict[str, Any], steps: Steps
+) -> tuple[Job, RadiusChoice, AlphaShape]:
+    job = Job.begin(source, options, steps, attributes=options["keep_columns"])
+    choice = job.choose(options["radius"], steps)
+    return job, choice, job.complex.at(choice.radius)
+
+
+def _saver(job: Job, shape: AlphaShape, options: dict[str, Any]) -> Callable[[Path], None]:
+    """Return what writes the mesh."""
+    if not options["keep_columns"]:
+        return shape.save
+    if job.complex.points.shape[1] == 3:
+        raise click.UsageError("--keep-columns is for points in the plane; leave it out")
+    return partial(shape.save, point_data=job.given.table)
+
+
+def _draw(job: Job, choice: RadiusChoice, path: Path) -> None:
+    from alphamesh.plot import plot_overview
+
+    save_figure(plot_overview(job.complex, choice.radius), path)
+
+
+def _facts(choice: RadiusChoice, shape: AlphaShape | AlphaShape3D) -> dict[str, Any]:
+    """Return the summary for scripts."""
+    return {
         "radius": choice.radius,
         "rule": choice.rule,
         "reason": choice.reason,
         **shape.counts,
-        "area": shape.area,
-        "perimeter": shape.perimeter,
-        "files": [{"path": path, "bytes": size} for path, size in outputs.sizes().items()],
-        "failures": outputs.failures,
+        **_sizes(shape),
     }
 
 
-def _lines(result: _Result, outputs: Outputs) -> dict[str, str]:
+def _sizes(shape: AlphaShape | AlphaShape3D) -> dict[str, float]:
+    """Return how large a shape is, in the plane or in space."""
+    from alphamesh.simplices3d import SimplexSet3D
+
+    if isinstance(shape, SimplexSet3D):
+        return {"volume": shape.volume, "surface_area": shape.surface_area}
+    return {"area": shape.area, "perimeter": shape.perimeter}
+
+
+def _lines(choice: RadiusChoice, shape: AlphaShape | AlphaShape3D) -> dict[str, str]:
     """Return the summary for people."""
-    shape, choice = result.shape, result.choice
-    counts = shape.counts
-    lines = {
-        "Input": result.given.text,
-        "Points": points_text(len(result.complex.points), result.duplicates),
-        "Radius": f"{number(choice.radius)}  ({choice.rule})",
-        "": choice.reason,
-        "Triangles": f"{counts['triangles']:,}",
-        "Singular edges": f"{counts['singular_edges']:,}",
-        "Isolated vertices": f"{counts['isolated_vertices']:,}",
-        "Area": number(shape.area),
-        "Perimeter": number(shape.perimeter),
+    told = ("tetrahedra", "triangles", "singular_triangles", "singular_edges")
+    counts = {
+        name.replace("_", " ").capitalize(): f"{shape.counts[name]:,}"
+        for name in (*told, "isolated_vertices")
+        if name in shape.counts and (name != "triangles" or "tetrahedra" not in shape.counts)
     }
-    written = [f"{path}  ({size_text(size)})" for path, size in outputs.sizes().items()]
-    lines["Written"] = "\n".join(written) or "nothing; -o FILE writes the mesh"
-    return lines
+    texts = {"volume": volume_text, "perimeter": length_text}
+    sizes = {
+        name.replace("_", " ").capitalize(): texts.get(name, area_text)(size)
+        for name, size in _sizes(shape).items()
+    }
+    return {"Radius": radius_text(choice), "": choice.reason, **counts, **sizes}

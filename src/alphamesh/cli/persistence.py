@@ -12,16 +12,18 @@ from alphamesh.cli.building import (
     Job,
     cloud_options,
     need_matplotlib,
+    plot_option,
     radius_option,
     save_figure,
     source_argument,
 )
 from alphamesh.cli.command import Command
-from alphamesh.cli.outputs import Output, Outputs, check_targets
+from alphamesh.cli.files import TableFile
+from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.summary import number
-from alphamesh.cli.tables import TableFile, write_table
-from alphamesh.cli.types import FigureFile
+from alphamesh.cli.summary import length_text, number
+from alphamesh.cli.tables import write_table
+from alphamesh.cli.types import Rule
 
 if TYPE_CHECKING:
     from alphamesh.persistence import Persistence
@@ -40,17 +42,11 @@ _EXAMPLES = (
 
 @click.command("persistence", cls=Command, examples=_EXAMPLES)
 @source_argument
-@click.option(
-    "-o",
-    "--output",
-    "tables",
-    type=TableFile(),
-    multiple=True,
-    help="Write dimension, birth and death of every class here: .csv, .tsv or .npz. Can be "
-    "given several times.",
+@output_options(
+    TableFile(".csv"), "Write dimension, birth and death of every class here", name="tables"
 )
 @click.option("--squared", is_flag=True, help="Write squared radii, the values of GUDHI.")
-@click.option("--plot", "picture", type=FigureFile(), help="Draw the classes.")
+@plot_option("Draw the classes.")
 @click.option(
     "--plot-as",
     "view",
@@ -66,7 +62,7 @@ def command(
     tables: tuple[Path, ...],
     squared: bool,
     picture: Path | None,
-    radius: float | str,
+    radius: float | Rule,
     **options: Any,
 ) -> None:
     """Tell at which radii components and holes of the complex come and go.
@@ -109,9 +105,9 @@ def _told(pairs: Persistence) -> tuple[dict[str, Any], dict[str, str]]:
         "connected_from": joined,
         "longest_holes": longest,
     }
-    bars = [f"{number(birth)} to {number(death)}" for birth, death in longest]
+    bars = [f"{number(birth)} to {length_text(death)}" for birth, death in longest]
     lines = {
-        "Components": f"{len(components):,}, all joined at radius {number(joined)}",
+        "Components": f"{len(components):,}, all joined at radius {length_text(joined)}",
         "Holes": f"{len(holes):,} that come and go",
         "Longest holes": "\n".join(bars) or "none",
     }

@@ -13,14 +13,15 @@ from alphamesh.cli.building import (
     cloud_options,
     need_matplotlib,
     radius_option,
+    radius_text,
     save_figure,
     source_argument,
 )
 from alphamesh.cli.command import Command
-from alphamesh.cli.outputs import Output, Outputs, check_targets
+from alphamesh.cli.files import FigureFile
+from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.summary import number
-from alphamesh.cli.types import FigureFile
+from alphamesh.cli.types import Rule
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -58,15 +59,7 @@ _EXAMPLES = (
 
 @click.command("plot", cls=Command, examples=_EXAMPLES)
 @source_argument
-@click.option(
-    "-o",
-    "--output",
-    "pictures",
-    type=FigureFile(),
-    multiple=True,
-    required=True,
-    help="Write the picture here: .png, .pdf or .svg. Can be given several times.",
-)
+@output_options(FigureFile(".png"), "Write the picture here", name="pictures", required=True)
 @click.option(
     "--view",
     type=click.Choice(list(VIEWS)),
@@ -86,7 +79,7 @@ def command(
     source: str,
     pictures: tuple[Path, ...],
     view: str,
-    radius: float | str,
+    radius: float | Rule,
     dpi: float | None,
     **options: Any,
 ) -> None:
@@ -108,10 +101,13 @@ def command(
             choice = job.choose(radius, steps)
             chosen = choice.radius
             facts.update(radius=chosen, rule=choice.rule)
-            lines["Radius"] = f"{number(chosen)}  ({choice.rule})"
+            lines["Radius"] = radius_text(choice)
         with steps.step("Drawing"):
             figure = figure_of(view, job.complex, chosen)
-        files = [Output(path, lambda path: save_figure(figure, path, dpi)) for path in pictures]
+        files = [
+            Output(path, lambda path: save_figure(figure, path, dpi), ".png")
+            for path in pictures
+        ]
         outputs.write(files, steps)
     job.tell(facts, lines, outputs)
 

@@ -7,20 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from alphamesh.cli.building import Job, cloud_options, source_argument
+from alphamesh.cli.building import Job, cloud_options, radius_text, source_argument
 from alphamesh.cli.command import Command
 from alphamesh.cli.outputs import Outputs
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, number
-from alphamesh.cli.types import AUTO, BettiType
+from alphamesh.cli.types import AUTO, RULE_OPTIONS, BettiType, RuleName
 
 if TYPE_CHECKING:
     from alphamesh.radius import RadiusChoice
 
 __all__ = ["command"]
-
-# Options of rules; what a rule does not know, it refuses by itself.
-_OPTIONS = ("betti", "components", "holes", "min_hole", "regions", "triangles")
 
 _EXAMPLES = (
     "alphamesh radius points.csv",
@@ -31,7 +28,13 @@ _EXAMPLES = (
 
 @click.command("radius", cls=Command, examples=_EXAMPLES)
 @source_argument
-@click.option("--rule", default=AUTO, show_default=True, help="The rule that chooses.")
+@click.option(
+    "--rule",
+    type=RuleName(),
+    default=AUTO,
+    show_default=True,
+    help="The rule that chooses.",
+)
 @click.option(
     "--betti",
     type=BettiType(),
@@ -54,20 +57,12 @@ def command(source: str, rule: str, **options: Any) -> None:
     --holes and --min-hole are those of the rule topology, --regions and
     --triangles those of the rules regions and triangle-count.
     """
-    from alphamesh.radius import DEFAULT_RULE, rule_names
-
-    if rule == AUTO:
-        rule = DEFAULT_RULE
-    if rule not in rule_names():
-        raise click.UsageError(
-            f"there is no radius rule {rule!r}; rules: {', '.join((AUTO, *rule_names()))}"
-        )
-    wanted = {name: options.pop(name) for name in _OPTIONS}
+    wanted = {name: options.pop(name) for name in RULE_OPTIONS}
     wanted = {name: value for name, value in wanted.items() if value is not None}
     with Steps(quiet=options["quiet"]) as steps:
         job = Job.begin(source, options, steps)
         with steps.step("Choosing the radius"):
-            choice = job.complex.choose_radius(rule, **wanted)
+            choice = job.complex.choose_radius(None if rule == AUTO else rule, **wanted)
     facts, lines = _told(choice)
     job.tell(facts, lines, Outputs())
 
@@ -87,7 +82,7 @@ def _told(choice: RadiusChoice) -> tuple[dict[str, Any], dict[str, str]]:
             for other in choice.runners_up
         ],
     }
-    lines = {"Radius": f"{number(choice.radius)}  ({choice.rule})", "": choice.reason}
+    lines = {"Radius": radius_text(choice), "": choice.reason}
     if choice.interval is not None:
         lines["Interval"] = _range_text(*choice.interval)
     if choice.betti is not None:

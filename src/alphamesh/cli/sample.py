@@ -7,21 +7,14 @@ from typing import Any
 
 import click
 
-from alphamesh.cli.command import Command, json_option, quiet_option
-from alphamesh.cli.inputs import (
-    DEMO,
-    IMAGE,
-    Input,
-    InputOptions,
-    kind_of,
-    load,
-    sampling_options,
-)
-from alphamesh.cli.outputs import Output, Outputs, check_targets
+from alphamesh.cli.command import Command, json_option, overwrite_option, quiet_option
+from alphamesh.cli.files import PointsFile
+from alphamesh.cli.inputs import Input, InputOptions, load, sampling_options
+from alphamesh.cli.kinds import DEMO, IMAGE, kind_of
+from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import print_json, print_lines, size_text
-from alphamesh.cli.types import STREAM, PointsFile
-from alphamesh.cli.write_points import csv_text, write_points
+from alphamesh.cli.write_points import write_points
 
 __all__ = ["command"]
 
@@ -34,17 +27,9 @@ _EXAMPLES = (
 
 @click.command("sample", cls=Command, examples=_EXAMPLES)
 @click.argument("source", metavar="IMAGE")
-@click.option(
-    "-o",
-    "--output",
-    "files",
-    type=PointsFile(),
-    multiple=True,
-    required=True,
-    help='Write the points here: .csv, .tsv, .txt, .npy or .npz; "-" is a table on '
-    "standard output. Can be given several times.",
-)
+@output_options(PointsFile(".csv"), "Write the points here", required=True)
 @sampling_options
+@overwrite_option
 @json_option
 @quiet_option
 def command(source: str, files: tuple[Path, ...], **options: Any) -> None:
@@ -55,31 +40,25 @@ def command(source: str, files: tuple[Path, ...], **options: Any) -> None:
     left corner of the image.
     """
     as_json, quiet = options.pop("as_json"), options.pop("quiet")
-    if as_json and STREAM in files:
-        raise click.UsageError("--json and -o - would both use standard output")
     if kind_of(source) not in {IMAGE, DEMO}:
         raise click.UsageError(f"{source!r} is no image; points are drawn from images only")
     check_targets(files, source)
     outputs = Outputs()
     with Steps(quiet=quiet) as steps:
         given = load(source, InputOptions(**options), steps)
-        named = [path for path in files if path != STREAM]
         outputs.write(
-            [Output(path, lambda path: write_points(given.points, path)) for path in named],
+            [Output(path, lambda path: write_points(given.points, path)) for path in files],
             steps,
         )
-    _report(given, outputs, as_json=as_json, stream=STREAM in files)
+    if not outputs.streamed:
+        _report(given, outputs, as_json=as_json)
     outputs.raise_failures()
 
 
-def _report(given: Input, outputs: Outputs, *, as_json: bool, stream: bool) -> None:
-    """Print the points or what has become of them."""
+def _report(given: Input, outputs: Outputs, *, as_json: bool) -> None:
+    """Print what has become of the points."""
     sizes = outputs.sizes()
-    if stream:
-        click.echo("x,y")
-        for lines in csv_text(given.points):
-            click.echo(lines, nl=False)
-    elif as_json:
+    if as_json:
         facts = [{"path": path, "bytes": size} for path, size in sizes.items()]
         print_json(
             {

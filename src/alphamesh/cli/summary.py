@@ -6,13 +6,26 @@ import json
 import math
 import shutil
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import click
 import numpy as np
 
-__all__ = ["counted", "number", "points_text", "print_json", "print_lines", "size_text"]
+from alphamesh.cli.command import setting
+
+__all__ = [
+    "area_text",
+    "counted",
+    "length_text",
+    "number",
+    "points_text",
+    "print_json",
+    "print_lines",
+    "print_table",
+    "size_text",
+    "volume_text",
+]
 
 _LABEL_WIDTH = 17
 _WIDEST = 96
@@ -42,6 +55,20 @@ def print_lines(lines: Mapping[str, str]) -> None:
         click.echo(f"{head} {wrapped[len(indent) :]}")
 
 
+def print_table(
+    names: Sequence[str], rows: Sequence[Sequence[str]], *, words: Sequence[str] = ()
+) -> None:
+    """Print aligned columns: words to the left, all others, numbers, to the right."""
+    widths = [max(map(len, column)) for column in zip(names, *rows, strict=True)]
+    for number_, row in enumerate([names, *rows]):
+        cells = (
+            cell.ljust(width) if name in words else cell.rjust(width)
+            for name, cell, width in zip(names, row, widths, strict=True)
+        )
+        line = "  ".join(cells).rstrip()
+        click.echo(click.style(line, dim=True) if number_ == 0 else line)
+
+
 def print_json(facts: Mapping[str, Any]) -> None:
     """Print `facts` as one JSON object; numbers that JSON lacks become null."""
     click.echo(json.dumps(_plain(facts), indent=2, allow_nan=False))
@@ -63,6 +90,24 @@ def _plain(value: Any) -> Any:
 def number(value: float) -> str:
     """Return a measured number with six significant digits."""
     return f"{value:.6g}"
+
+
+def length_text(value: float) -> str:
+    """Return a length, with its units if --units names them."""
+    units = setting("units")
+    return number(value) + (f" {units}" if units else "")
+
+
+def area_text(value: float) -> str:
+    """Return an area, with its units if --units names them."""
+    units = setting("units")
+    return number(value) + (f" {units}²" if units else "")
+
+
+def volume_text(value: float) -> str:
+    """Return a volume, with its units if --units names them."""
+    units = setting("units")
+    return number(value) + (f" {units}³" if units else "")
 
 
 def counted(count: int, singular: str, plural: str | None = None) -> str:

@@ -1,7 +1,8 @@
-"""Results into tables, whole or not at all: CSV for people, NPZ for programs."""
+"""Results into tables, whole or not at all: CSV for people, Parquet and NPZ for programs."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,25 +10,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from alphamesh.cli.types import TableFile
 from alphamesh.io._atomic import atomic_path
 
-__all__ = ["TableFile", "write_table"]
+__all__ = ["write_table"]
 
 Columns = Mapping[str, NDArray[Any]]
+
+# What would end a cell, or begin a comment.
+_AWKWARD = re.compile(r"[,;\t\"\n\r#]")
 
 # Lines made in one go: fast, and Ctrl-C never waits long.
 _LINES = 50_000
 
 
 def write_table(path: Path, columns: Columns, arrays: Columns | None = None) -> None:
-    """Write a table to a ``.csv``, ``.tsv`` or ``.npz`` file.
+    """Write a table to a ``.csv``, ``.tsv``, ``.parquet`` or ``.npz`` file.
 
     Parameters
     ----------
     path : Path
     columns : mapping of str to (m,) array
-        The columns of the text formats; numbers are written so that nothing is lost.
+        Of all formats but NPZ; numbers are written so that nothing is lost.
     arrays : mapping of str to array, optional
         What an NPZ file holds instead.
 
@@ -35,9 +38,16 @@ def write_table(path: Path, columns: Columns, arrays: Columns | None = None) -> 
     ------
     FileWriteError
         If it cannot be written; nothing is left behind.
+    MissingLibraryError
+        For Parquet, if pyarrow is not installed.
     """
     with atomic_path(path) as temporary, temporary.open("wb") as file:
         suffix = path.suffix.lower()
+        if suffix == ".parquet":
+            from alphamesh.io._parquet import write_parquet
+
+            write_parquet(columns, file)
+            return
         if suffix == ".npz":
             named: dict[str, Any] = dict(columns if arrays is None else arrays)
             np.savez(file, **named)
@@ -49,5 +59,15 @@ def write_table(path: Path, columns: Columns, arrays: Columns | None = None) -> 
             rows = zip(
                 *(column[start : start + _LINES].tolist() for column in values), strict=True
             )
-            lines = (delimiter.join(map(repr, row)) + "\n" for row in rows)
+            lines = (delimiter.join(map(_cell, row)) + "\n" for row in rows)
             file.write("".join(lines).encode())
+
+
+def _cell(value: object) -> str:
+    """Return a number so that it reads back the same, truth as 1 or 0, text as CSV."""
+    if isinstance(value, bool):
+        return str(int(value))
+    if isinstance(value, int | float):
+        return repr(value)
+    text = "" if value is None else str(value)
+    return '"' + text.replace('"', '""') + '"' if _AWKWARD.search(text) else text

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
+from click.shell_completion import CompletionItem
 
 if TYPE_CHECKING:
     ParamType = click.ParamType[Any]
@@ -14,49 +14,122 @@ else:
 
 __all__ = [
     "AUTO",
-    "STREAM",
+    "RULE_OPTIONS",
+    "AggregateType",
     "BettiType",
     "ColumnsType",
-    "FigureFile",
-    "FilmFile",
-    "MeshFile",
-    "PointsFile",
     "RadiiType",
     "RadiusType",
-    "TableFile",
+    "Rule",
+    "RuleName",
+    "SourceType",
 ]
 
 AUTO = "auto"
 
-# Standard input or output in the place of a file.
-STREAM = Path("-")
+
+class SourceType(ParamType):
+    """An input: a file, ``-``, or a demo shape."""
+
+    name = "input"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> str:
+        """Return it as it is; what it stands for is found out when it is read."""
+        return str(value)
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Let the shell look for files."""
+        return [CompletionItem(incomplete, type="file")]
+
+
+class Rule(NamedTuple):
+    """A rule that chooses a radius, and its options; ``auto`` is the usual one."""
+
+    name: str
+    options: dict[str, Any]
 
 
 class RadiusType(ParamType):
-    """A radius: a number of at least 0, ``auto``, or the name of a rule."""
+    """A radius: a number of at least 0, ``auto``, or a rule, as in ``topology:holes=2``."""
 
     name = "radius"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> float | str:
-        """Return a number, or the name of a rule."""
-        from alphamesh.radius import DEFAULT_RULE, rule_names
-
-        if value == AUTO:
-            return DEFAULT_RULE
-        if value in rule_names():
-            return str(value)
+    ) -> float | Rule:
+        """Return a number, or a rule."""
+        if isinstance(value, Rule | float):
+            return value
+        name, *options = str(value).split(":")
+        if name in _known_rules():
+            return Rule(name, dict(self._option(text, param, ctx) for text in options))
         try:
             radius = float(value)
         except ValueError:
-            rules = ", ".join((AUTO, *rule_names()))
+            rules = ", ".join(_known_rules())
             self.fail(
                 f"{value!r} is neither a number nor one of the rules: {rules}", param, ctx
             )
         if not radius >= 0:
             self.fail(f"{value!r} is not a number of at least 0", param, ctx)
         return radius
+
+    def _option(
+        self, text: str, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, Any]:
+        """Return an option of a rule, as in ``holes=2``."""
+        name, equals, value = text.partition("=")
+        name = name.strip().replace("-", "_")
+        if not equals or name not in RULE_OPTIONS:
+            self.fail(
+                f"{text!r} is no option of a rule; they are written as in topology:holes=2, "
+                f"and there are {', '.join(RULE_OPTIONS)}",
+                param,
+                ctx,
+            )
+        return name, RULE_OPTIONS[name].convert(value, param, ctx)
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Return the rules that begin so."""
+        return _rules_from(incomplete)
+
+
+class RuleName(ParamType):
+    """The name of a rule, whose options are options of the command."""
+
+    name = "rule"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> str:
+        """Return the name of a rule that there is."""
+        if value not in _known_rules():
+            listed = ", ".join(_known_rules())
+            self.fail(f"there is no radius rule {value!r}; rules: {listed}", param, ctx)
+        return str(value)
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Return the rules that begin so."""
+        return _rules_from(incomplete)
+
+
+def _rules_from(start: str) -> list[CompletionItem]:
+    return [CompletionItem(name) for name in _known_rules() if name.startswith(start)]
+
+
+def _known_rules() -> tuple[str, ...]:
+    """Return ``auto`` and the names of the rules, those of the plane first."""
+    from alphamesh.radius import rule_names
+
+    return (AUTO, *dict.fromkeys(rule_names(2) + rule_names(3)))
 
 
 class RadiiType(ParamType):
@@ -103,107 +176,46 @@ class BettiType(ParamType):
         return int(parts[0]), int(parts[1])
 
 
+RULE_OPTIONS: dict[str, ParamType] = {
+    "betti": BettiType(),
+    "components": click.IntRange(1),
+    "holes": click.IntRange(0),
+    "min_hole": click.FloatRange(0),
+    "regions": click.IntRange(1),
+    "triangles": click.IntRange(1),
+}
+"""Options of rules; what a rule does not know, it refuses by itself."""
+
+
 class ColumnsType(ParamType):
-    """Two columns, ``x,y``, by name or by number counted from 0."""
+    """Two columns, ``x,y``, or three, by name or by number counted from 0."""
 
     name = "columns"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str | int, str | int]:
-        """Return the two names or numbers."""
+    ) -> tuple[str | int, ...]:
+        """Return the names or numbers."""
         if isinstance(value, tuple):
             return value
         names = [name.strip() for name in str(value).split(",")]
-        if len(names) != 2 or not all(names):
-            self.fail(f"{value!r} is not two columns, such as x,y or 0,1", param, ctx)
-        first, second = (int(name) if name.isdigit() else name for name in names)
-        return first, second
+        if len(names) not in {2, 3} or not all(names):
+            self.fail(f"{value!r} is not two or three columns, such as x,y or 0,1,2")
+        return tuple(int(name) if name.isdigit() else name for name in names)
 
 
-class _File(ParamType):
-    """A file to write, in a format that its extension tells."""
+class AggregateType(ParamType):
+    """A column and what to make of it, ``height:max``."""
 
-    name = "file"
-    what = "file"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions that are known, each with its dot."""
-        raise NotImplementedError
+    name = "aggregate"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Path:
-        """Return the path if its extension is known."""
-        path = Path(value)
-        known = self.formats()
-        if path.suffix.lower() not in known:
-            named = f"the extension {path.suffix!r}" if path.suffix else "no extension"
-            self.fail(
-                f"{str(path)!r} has {named}; a {self.what} ends in one of: {', '.join(known)}",
-                param,
-                ctx,
-            )
-        return path
-
-
-class MeshFile(_File):
-    """A mesh file to write."""
-
-    what = "mesh file"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of mesh files."""
-        from alphamesh.io.meshes import MESH_FORMATS
-
-        return tuple(MESH_FORMATS)
-
-
-class FigureFile(_File):
-    """A picture to write."""
-
-    what = "picture"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of pictures."""
-        return (".png", ".pdf", ".svg")
-
-
-class FilmFile(_File):
-    """A film to write."""
-
-    what = "film"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of films."""
-        from alphamesh.film.film import FILM_FORMATS
-
-        return FILM_FORMATS
-
-
-class TableFile(_File):
-    """A table of results to write."""
-
-    what = "table"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of tables."""
-        return (".csv", ".tsv", ".npz")
-
-
-class PointsFile(_File):
-    """A file of points to write; ``-`` is standard output."""
-
-    what = "file of points"
-
-    def formats(self) -> tuple[str, ...]:
-        """Return the extensions of files of points."""
-        from alphamesh.cli.write_points import POINT_WRITERS
-
-        return tuple(POINT_WRITERS)
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> Path:
-        """Return the path if its extension is known, or ``-``."""
-        return STREAM if value == "-" else super().convert(value, param, ctx)
+    ) -> tuple[str, str]:
+        """Return the two words."""
+        if isinstance(value, tuple):
+            return value
+        column, colon, how = str(value).rpartition(":")
+        if not (colon and column and how):
+            self.fail(f"{value!r} is not a column and what to make of it, such as height:max")
+        return column, how

@@ -25,7 +25,7 @@ def write_points(points: Points, path: Path) -> None:
 
     Parameters
     ----------
-    points : (n, 2) float64 array
+    points : (n, 2) or (n, 3) float64 array
     path : Path
         Its extension is a key of `POINT_WRITERS`.
 
@@ -33,6 +33,8 @@ def write_points(points: Points, path: Path) -> None:
     ------
     FileWriteError
         If it cannot be written; nothing is left behind.
+    MissingLibraryError
+        For Parquet, if pyarrow is not installed.
     """
     write = POINT_WRITERS[path.suffix.lower()]
     with atomic_path(path) as temporary, temporary.open("wb") as file:
@@ -43,12 +45,13 @@ def csv_text(points: Points, delimiter: str = ",") -> Iterator[str]:
     """Return the lines of a table without header, every number exact."""
     for start in range(0, len(points), _LINES):
         rows = points[start : start + _LINES].tolist()
-        yield "".join(f"{x!r}{delimiter}{y!r}\n" for x, y in rows)
+        yield "".join(delimiter.join(map(repr, row)) + "\n" for row in rows)
 
 
-def _table(delimiter: str, header: str) -> Callable[[Points, BinaryIO], None]:
+def _table(delimiter: str, *, header: bool = True) -> Callable[[Points, BinaryIO], None]:
     def write(points: Points, file: BinaryIO) -> None:
-        file.write(header.encode())
+        if header:
+            file.write(f"{delimiter.join('xyz'[: points.shape[1]])}\n".encode())
         for lines in csv_text(points, delimiter):
             file.write(lines.encode())
 
@@ -63,13 +66,34 @@ def _npz(points: Points, file: BinaryIO) -> None:
     np.savez(file, points=points)
 
 
+def _parquet(points: Points, file: BinaryIO) -> None:
+    from alphamesh.io._parquet import write_parquet
+
+    write_parquet(dict(zip("xyz", points.T, strict=False)), file)
+
+
+def _ply(points: Points, file: BinaryIO) -> None:
+    """Write vertices alone, binary; flat ones get z = 0, as most readers need it."""
+    in_space = np.zeros((len(points), 3), dtype="<f8")
+    in_space[:, : points.shape[1]] = points
+    properties = "".join(f"property double {axis}\n" for axis in "xyz")
+    file.write(
+        "ply\nformat binary_little_endian 1.0\n"
+        f"element vertex {len(points)}\n{properties}end_header\n".encode()
+    )
+    file.write(in_space.tobytes())
+
+
 POINT_WRITERS: Mapping[str, Callable[[Points, BinaryIO], None]] = MappingProxyType(
     {
-        ".csv": _table(",", "x,y\n"),
-        ".tsv": _table("\t", "x\ty\n"),
-        ".txt": _table(" ", ""),
+        ".csv": _table(","),
+        ".tsv": _table("\t"),
+        ".txt": _table(" ", header=False),
+        ".xyz": _table(" ", header=False),
         ".npy": _npy,
         ".npz": _npz,
+        ".parquet": _parquet,
+        ".ply": _ply,
     }
 )
 """How to write each format, by file extension."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import tokenize
+import warnings
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
     from alphamesh._arrays import FloatArray
 
-__all__ = ["read_npy", "read_npz"]
+__all__ = ["read_arrays", "read_npy", "read_npz"]
 
 # Deflate packs a byte into no less than this part of one.
 _BEST_COMPRESSION = 1100
@@ -84,6 +85,34 @@ def read_npz(source: Source, wanted: Wanted, key: str | None) -> FloatArray:
     return _table(source, array, wanted)
 
 
+def read_arrays(source: Source) -> dict[str, NDArray[Any]]:
+    """Return all arrays of an NPZ file by name; that of an NPY file has an empty one.
+
+    Raises
+    ------
+    FileReadError
+        If it is neither, not complete, or holds Python objects.
+    """
+    with source.open() as file:
+        packed = file.read(2) == b"PK"
+    if not packed:
+        with source.open() as file, _translated(source, "NPY"):
+            return {"": _array(source, file, source.size)}
+    with (
+        source.open() as file,
+        _translated(source, "NPZ"),
+        zipfile.ZipFile(file) as archive,
+    ):
+        found = {}
+        for info in archive.infolist():
+            if info.file_size > _BEST_COMPRESSION * source.size:
+                raise source.failure("is damaged: it claims more data than it can hold")
+            with archive.open(info) as member:
+                name = info.filename.removesuffix(".npy")
+                found[name] = _array(source, member, info.file_size)
+        return found
+
+
 def _choose_key(source: Source, keys: list[str], key: str | None) -> str:
     listed = ", ".join(repr(name) for name in keys[:12]) or "none"
     if key is not None:
@@ -101,6 +130,13 @@ def _choose_key(source: Source, keys: list[str], key: str | None) -> str:
 
 def _array(source: Source, file: IO[bytes], size: int) -> NDArray[Any]:
     """Read the array in `size` bytes, after a look whether they hold what they promise."""
+    with warnings.catch_warnings():
+        # Files that were written by Python 2 are as good as others.
+        warnings.filterwarnings("ignore", "Reading .* additional header parsing", UserWarning)
+        return _parsed(source, file, size)
+
+
+def _parsed(source: Source, file: IO[bytes], size: int) -> NDArray[Any]:
     version = np.lib.format.read_magic(file)
     # Versions 2 and 3 differ in the names of fields alone, which are read later.
     read_header = (

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from alphamesh.io._sources import Source
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
 
-__all__ = ["read_parquet"]
+__all__ = ["read_parquet", "write_parquet"]
 
 
 def read_parquet(source: Source, wanted: Wanted) -> FloatArray:
@@ -56,6 +57,28 @@ def read_parquet(source: Source, wanted: Wanted) -> FloatArray:
                 f"is not a complete Parquet file ({error}); write or copy it again"
             ) from error
     return stack([_floats(source, columns.column(names[k]), names[k]) for k in chosen])
+
+
+def write_parquet(columns: Mapping[str, Any], file: IO[bytes]) -> None:
+    """Write columns of equal length.
+
+    Parameters
+    ----------
+    columns : mapping of str to (m,) array
+    file : binary file
+
+    Raises
+    ------
+    MissingLibraryError
+        If pyarrow is not installed.
+    """
+    try:
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+    except ImportError as error:
+        raise MissingLibraryError.of("pyarrow", "io", "Writing Parquet files") from error
+    arrays = {name: np.ascontiguousarray(values) for name, values in columns.items()}
+    pq.write_table(pa.table(arrays), file)
 
 
 def _refuse_twins(source: Source, names: list[str], chosen: tuple[int, ...]) -> None:

@@ -15,7 +15,7 @@ from alphamesh.io._text import read_rows
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
 
-__all__ = ["read_ply"]
+__all__ = ["read_ply", "vertex_properties"]
 
 _LONGEST_HEADER = 2**20
 _BYTE_ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">"}
@@ -74,6 +74,14 @@ def read_ply(source: Source, wanted: Wanted) -> FloatArray:
     if header.form == "ascii":
         return _read_ascii(source, header, vertex, before, chosen)
     return _read_binary(source, header, vertex, before, chosen)
+
+
+def vertex_properties(source: Source) -> dict[str, str]:
+    """Return the names of the numbers of the vertices, and their types for NumPy."""
+    with source.open() as file:
+        vertex, _ = _vertex_element(source, _read_header(source, file))
+    usable = slice(vertex.first_list)
+    return dict(zip(vertex.names[usable], vertex.types[usable], strict=True))
 
 
 def _vertex_element(source: Source, header: _Header) -> tuple[_Element, list[_Element]]:

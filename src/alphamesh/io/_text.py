@@ -7,7 +7,7 @@ import io
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from itertools import chain, islice
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 import numpy as np
 
@@ -19,9 +19,11 @@ from alphamesh.io._sniff import find_layout
 from alphamesh.io._sources import Source
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from alphamesh._arrays import FloatArray
 
-__all__ = ["read_rows", "read_text"]
+__all__ = ["layout_of", "read_cells", "read_rows", "read_text"]
 
 _BYTE_ORDER_MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig"),
@@ -66,10 +68,30 @@ def read_text(
     FileReadError
         If it is not such a text, or a number is missing or is not one.
     """
+    return read_rows(source, *layout_of(source, wanted, options, usual_delimiter))
+
+
+def layout_of(
+    source: Source, wanted: Wanted, options: TextOptions, usual_delimiter: str | None
+) -> tuple[str, Layout]:
+    """Return the encoding and the layout of a text; see :func:`read_text`."""
     encoding = _encoding(source, options.encoding)
     with _open_text(source, encoding) as text:
-        layout = find_layout(source, text, wanted, options, usual_delimiter)
-    return read_rows(source, encoding, layout)
+        return encoding, find_layout(source, text, wanted, options, usual_delimiter)
+
+
+def read_cells(source: Source, encoding: str, layout: Layout) -> NDArray[Any]:
+    """Return the cells that `layout` points to as text, ``(n, columns)``."""
+    with _open_text(source, encoding) as text:
+        rows = _Rows(islice(text, layout.first - 1, None), layout)
+        try:
+            return rows.read(np.dtype(np.object_))
+        except UnicodeError:
+            raise
+        except ValueError as error:
+            raise source.failure(
+                f"has rows with fewer cells than its header has names ({error}); complete them"
+            ) from error
 
 
 def read_rows(source: Source, encoding: str, layout: Layout) -> FloatArray:
@@ -109,14 +131,15 @@ class _Rows:
         self._lines = lines
         self._layout = layout
 
-    def read(self) -> FloatArray:
+    def read(self, dtype: Any = np.float64) -> NDArray[Any]:
         layout = self._layout
         kept = self._kept()
         first = next(kept, None)
         if first is None:  # NumPy warns of tables without rows
-            return np.empty((0, len(layout.columns)))
+            return np.empty((0, len(layout.columns)), dtype=dtype)
         return np.loadtxt(
             chain([first], kept),
+            dtype=dtype,
             delimiter=layout.delimiter,
             comments=layout.comment,
             usecols=layout.columns,

@@ -29,6 +29,9 @@ from alphamesh.io._mesh_plain import (
     write_ply,
     write_stl,
 )
+from alphamesh.io._mesh_ply import read_ply
+from alphamesh.io._vertex_data import tell_of_lost_data, vertex_data
+from alphamesh.io.geo import GEO_FORMATS
 
 __all__ = [
     "MESH_FORMATS",
@@ -37,6 +40,8 @@ __all__ = [
     "compact",
     "mesh_format",
     "read_mesh",
+    "tell_of_lost_data",
+    "vertex_data",
     "write_mesh",
 ]
 
@@ -109,7 +114,7 @@ MESH_FORMATS: dict[str, MeshFormat] = {
         "binary; isolated vertices are vertices that no face uses, singular edges are "
         "elements of their own (`edge`), which some programs skip and meshio refuses",
         write_ply,
-        _meshio_reader("ply"),
+        read_ply,
         cells=_NO_TETRA,
         cell_data=False,
     ),
@@ -205,7 +210,7 @@ def read_mesh(path: str | os.PathLike[str], *, file_format: str | None = None) -
     Points are three-dimensional, as in the files, except in NPZ. Of the numbers, those
     with one component are read. Outside of NPZ, files are read by meshio, which knows
     neither meshes without points, nor VTU and VTK files without cells, nor the edges of
-    PLY and OBJ.
+    OBJ; PLY files with edges are read without it.
 
     Parameters
     ----------
@@ -278,6 +283,8 @@ def mesh_format(
         return MESH_FORMATS[key]
     what = f"the extension {key!r} is no mesh format" if key else "the name has no extension"
     verb, kind = ("read", FileReadError) if reading else ("write", FileWriteError)
+    if key in GEO_FORMATS:
+        known += "; for outlines in a GIS, " + ("read_geo" if reading else "save_outlines")
     raise kind(f"cannot {verb} '{os.fspath(path)}': {what}; choose one of {known}")
 
 

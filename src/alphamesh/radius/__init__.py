@@ -10,6 +10,7 @@ from alphamesh.radius import (
     _topology,
 )
 from alphamesh.radius._choice import RadiusChoice, RadiusInterval
+from alphamesh.radius._regions import region_events
 from alphamesh.radius._registry import DEFAULT_RULE, choose_radius, radius_rule, rule_names
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "RadiusInterval",
     "choose_radius",
     "radius_rule",
+    "region_events",
     "rule_names",
 ]
 

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh.filtration import AnyFiltration
 
+__all__ = ["region_events"]
+
 
 @radius_rule("one-region")
 def _one_region(filtration: AnyFiltration) -> RadiusChoice:
@@ -34,7 +36,7 @@ def _regions(filtration: AnyFiltration, *, regions: int = 1) -> RadiusChoice:
 def _few_regions(filtration: AnyFiltration, most: int, rule: str) -> RadiusChoice:
     if filtration.dimension == 0:
         return RadiusChoice(0.0, rule, "All points are at one place: one piece at any radius.")
-    begins, ends = _region_events(filtration)
+    begins, ends = region_events(filtration)
     covered = float(covered_from(filtration).max())
     # The number of pieces changes only where one begins or two meet.
     radii = np.unique(np.append(ends, covered))
@@ -53,7 +55,7 @@ def _few_regions(filtration: AnyFiltration, most: int, rule: str) -> RadiusChoic
     return RadiusChoice(float(radii[first]), rule, reason)
 
 
-def _region_events(filtration: AnyFiltration) -> tuple[FloatArray, FloatArray]:
+def region_events(filtration: AnyFiltration) -> tuple[FloatArray, FloatArray]:
     """Return the radii at which pieces begin and at which two of them meet, each ascending.
 
     Pieces are sets of cells connected across facets; on a line, of points.

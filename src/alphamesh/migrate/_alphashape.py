@@ -1,0 +1,96 @@
+"""``alphashape.alphashape(points, alpha)``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from alphamesh import _geopoints, _shapely
+from alphamesh.complex import AlphaComplex
+from alphamesh.migrate._radius import alpha_of, just_below
+from alphamesh.points import Cloud, as_cloud
+
+__all__ = ["alphashape", "optimizealpha"]
+
+_PURPOSE = "alphashape"
+
+
+def alphashape(points: Any, alpha: float | None = None) -> Any:
+    """Return the alpha shape of points, as ``alphashape.alphashape`` does.
+
+    Parameters
+    ----------
+    points : array-like of shape (n, 2), shapely.MultiPoint, GeoDataFrame or GeoSeries
+    alpha : float, optional
+        One over the radius: triangles of a radius below ``1 / alpha`` are kept. By
+        default what :func:`optimizealpha` returns. 0 or less gives the convex hull, and
+        so do fewer than four points.
+
+    Returns
+    -------
+    shapely.Polygon, MultiPolygon, LineString, Point or GeometryCollection
+        A GeoDataFrame of one row for a GeoDataFrame with a reference system.
+
+    Raises
+    ------
+    ParameterError
+        If `alpha` is not a number.
+    CloudShapeError, NonFiniteError, CoordinateRangeError
+        If `points` are no points in the plane.
+    MissingLibraryError
+        If shapely is not installed.
+
+    Notes
+    -----
+    Differences from alphashape 1.3:
+
+    - Holes are kept. There they are filled, as it takes the union of all polygons that
+      the boundary edges enclose. To fill them: ``shape.filtered(max_hole_area=inf)``.
+    - Decisions are exact; there, Qhull and the radii are rounded.
+    - `alpha` cannot be a function of the triangle, and points are in the plane; for points
+      in space, see :func:`create_from_point_cloud_alpha_shape`.
+    """
+    cloud = as_cloud(points, 2)
+    shapely = _shapely.library(_PURPOSE)
+    few = len(cloud) < 4
+    best = 0.0 if few or alpha is not None else optimizealpha(cloud)
+    value = best if alpha is None else alpha_of(alpha)
+    if few or value <= 0:
+        made = shapely.convex_hull(shapely.multipoints(cloud.points))
+    else:
+        shape = AlphaComplex(Cloud(cloud.points)).at(just_below(value))
+        made = shape.geometry()
+        if len(shape.regions) == 1:
+            made = shapely.get_geometry(made, 0)
+        elif len(shape.regions) == 0:
+            made = shapely.geometrycollections([])
+    if cloud.crs is not None and hasattr(points, "columns"):
+        return _geopoints.geopandas(_PURPOSE).GeoDataFrame(geometry=[made], crs=cloud.crs)
+    return made
+
+
+def optimizealpha(points: Any) -> float:
+    """Return the largest alpha that leaves no point out and gives one piece.
+
+    Parameters
+    ----------
+    points : as for :func:`alphashape`
+
+    Returns
+    -------
+    float
+        0, for the convex hull, if there is none: where the points are on one line.
+
+    Notes
+    -----
+    There, a bisection looks for it, and can miss it: the number of pieces can go up and
+    down as alpha grows. With version 2 of shapely it fails. Here, it is the rule
+    ``"one-region"`` of :func:`alphamesh.choose_radius`, in one pass.
+    """
+    cx = AlphaComplex(Cloud(as_cloud(points, 2).points))
+    if cx.dimension < 2:
+        return 0.0
+    radius = cx.choose_radius("one-region").radius
+    alpha = 1.0 / radius
+    while just_below(alpha) < radius:  # its triangles are to be kept
+        alpha -= alpha * 2.0**-53
+    return alpha
