@@ -18,6 +18,7 @@ from alphamesh.errors import (
     CoordinateRangeError,
     DimensionError,
     NonFiniteError,
+    ParameterError,
 )
 from oracles3 import exact, filtration_squares, sixfold_volume
 from strategies3 import clouds3
@@ -294,6 +295,31 @@ def test_arrays_are_read_only_and_pickle():
     with pytest.raises(ValueError, match="read-only"):
         found.triangle_edges[0, 0] = 1
     assert repr(found) == "<Filtration3D: 12 vertices, 33 edges, 34 triangles, 12 tetrahedra>"
+
+
+def test_complexes_know_their_dimension():
+    cx = am.AlphaComplex(grid(3, 2, 2))
+    assert type(cx) is am.AlphaComplex3D and isinstance(cx, am.AlphaComplex)
+    assert type(am.AlphaComplex(grid(3, 2, 2)[:, :2])) is am.AlphaComplex
+    assert repr(cx) == "<AlphaComplex3D: 12 vertices, 33 edges, 34 triangles, 12 tetrahedra>"
+    again = pickle.loads(pickle.dumps(cx))
+    assert type(again) is am.AlphaComplex3D and copy.copy(cx) is cx
+    assert np.array_equal(again.at(0.9).tetrahedra, cx.at(0.9).tetrahedra)
+    with pytest.raises(CloudShapeError, match="in space alone"):
+        am.AlphaComplex3D(np.zeros((4, 2)))
+    for wrong in ({"threads": 0}, {"progress": "bar"}):
+        with pytest.raises(ParameterError, match=next(iter(wrong))):
+            am.AlphaComplex(grid(2, 2, 2), **wrong)
+
+
+def test_progress_is_told_of_large_clouds():
+    seen = []
+    points = np.random.default_rng(0).random((50_000, 3))
+    found = am.filtration(points, threads=2, progress=seen.append)
+    assert seen == sorted(seen) and seen[-1] == 1.0
+    assert found.tetrahedron_volumes.sum() == pytest.approx(
+        found.delaunay.convex_hull.volume, rel=1e-12
+    )
 
 
 @given(clouds3())

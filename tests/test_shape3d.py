@@ -235,6 +235,14 @@ def test_regions_that_touch_at_an_edge_or_a_point_are_two():
         assert len(common) == 8
 
 
+def test_duplicates_have_the_labels_of_their_representatives(two):
+    twice = am.AlphaComplex(np.concatenate([two.points, two.points[::-1]])).at(two.radius)
+    labels, count = twice.regions.vertex_labels, len(two.points)
+    assert np.array_equal(labels[:count], two.regions.vertex_labels)
+    assert np.array_equal(labels[:count], labels[count:][::-1])
+    assert twice.counts == two.counts
+
+
 def test_orders_and_scales_do_not_matter(two):
     shuffle = np.random.default_rng(0).permutation(len(two.points))
     other = am.AlphaComplex(two.points[shuffle] * 2.0**-40).at(two.radius * 2.0**-40)

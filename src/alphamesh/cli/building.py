@@ -90,24 +90,28 @@ class Job:
     as_json: bool
 
     @classmethod
-    def begin(
+    def begin(  # noqa: PLR0913 (what an input is read for)
         cls,
         source: str,
         options: dict[str, Any],
         steps: Steps,
         *,
+        space: bool = False,
         attributes: bool = False,
         crs: str | None = None,
     ) -> Job:
         """Read `source` and build its complex; of `options`, those of `cloud_options` count.
 
+        Without `space`, a third coordinate is left out unless --columns names it.
         With `attributes`, other columns of its file are read, too. `crs` is the reference
         system of points that come with none.
         """
         from alphamesh.complex import AlphaComplex
 
-        of_input = {field.name: options[field.name] for field in fields(InputOptions)}
-        given = load(source, InputOptions(**of_input), steps, attributes=attributes)
+        known = [field.name for field in fields(InputOptions) if field.name in options]
+        of_input = {name: options[name] for name in known}
+        wanted = InputOptions(**of_input, dimension=None if space else 2)
+        given = load(source, wanted, steps, attributes=attributes)
         if crs is not None:
             given = given.placed(crs)
         with steps.step(f"Triangulating {counted(len(given.points), 'point')}") as done:

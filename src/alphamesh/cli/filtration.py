@@ -66,7 +66,7 @@ def command(
     check_targets(tables, source)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        job = Job.begin(source, options, steps)
+        job = Job.begin(source, options, steps, space=True)
         found = _Simplices(job.complex.filtration, max_radius, squared)
         outputs.write([Output(path, found.write) for path in tables], steps)
     job.tell(*found.told(), outputs)

@@ -59,6 +59,8 @@ class InputOptions:
     encoding: str | None = None
     key: str | None = None
     layer: str | None = None
+    # Not an option: the number of coordinates that a command takes if no columns are named.
+    dimension: int | None = None
 
     @property
     def suffix(self) -> str | None:
@@ -73,6 +75,8 @@ class InputOptions:
     def table(self) -> dict[str, Any]:
         """Return what is said of a table, as keywords of ``read_points``."""
         given = {name: getattr(self, name) for name in _TABLE}
+        if self.columns is None:
+            given["dimension"] = self.dimension
         return {name: value for name, value in given.items() if value is not None}
 
     def refuse(self, names: dict[str, str], source: str, what: str) -> None:

@@ -25,6 +25,7 @@ from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import area_text, length_text, volume_text
 from alphamesh.cli.types import SourceType
+from alphamesh.errors import DimensionError
 
 if TYPE_CHECKING:
     from alphamesh.radius import RadiusChoice
@@ -68,7 +69,8 @@ def command(
     INPUT is a mask image (points are drawn from its white pixels), a file of
     points (CSV, TSV, TXT, XYZ, NPY, NPZ, Parquet, PLY), "-" for any of these on
     standard input, or demo:NAME for a built-in shape such as demo:annulus.
-    With --columns x,y,z the points are in space, the mesh is of tetrahedra.
+    Points with a third coordinate (a column z, as in PLY and XYZ files) are in
+    space: the mesh is of tetrahedra, in surface formats of their boundary.
     Without -o, the mesh is only described. With --output-dir, a mesh of every
     INPUT is written there, under its name.
     """
@@ -116,7 +118,7 @@ def _mesh_file(source: str, path: Path, options: dict[str, Any]) -> dict[str, An
 def _made(
     source: str, options: dict[str, Any], steps: Steps
 ) -> tuple[Job, RadiusChoice, AlphaShape]:
-    job = Job.begin(source, options, steps, attributes=options["keep_columns"])
+    job = Job.begin(source, options, steps, space=True, attributes=options["keep_columns"])
     choice = job.choose(options["radius"], steps)
     return job, choice, job.complex.at(choice.radius)
 
@@ -133,6 +135,8 @@ def _saver(job: Job, shape: AlphaShape, options: dict[str, Any]) -> Callable[[Pa
 def _draw(job: Job, choice: RadiusChoice, path: Path) -> None:
     from alphamesh.plot import plot_overview
 
+    if job.complex.points.shape[1] == 3:
+        raise DimensionError("--plot draws clouds in the plane alone; add --columns x,y")
     save_figure(plot_overview(job.complex, choice.radius), path)
 
 
@@ -147,13 +151,20 @@ def _facts(choice: RadiusChoice, shape: AlphaShape | AlphaShape3D) -> dict[str, 
     }
 
 
-def _sizes(shape: AlphaShape | AlphaShape3D) -> dict[str, float]:
+def _sizes(shape: AlphaShape | AlphaShape3D) -> dict[str, Any]:
     """Return how large a shape is, in the plane or in space."""
     from alphamesh.simplices3d import SimplexSet3D
 
-    if isinstance(shape, SimplexSet3D):
-        return {"volume": shape.volume, "surface_area": shape.surface_area}
-    return {"area": shape.area, "perimeter": shape.perimeter}
+    if not isinstance(shape, SimplexSet3D):
+        return {"area": shape.area, "perimeter": shape.perimeter}
+    return {
+        "volume": shape.volume,
+        "surface_area": shape.surface_area,
+        "regions": len(shape.regions),
+        "region_volumes": shape.regions.volumes,
+        "voids": len(shape.voids),
+        "void_volumes": shape.voids.volumes,
+    }
 
 
 def _lines(choice: RadiusChoice, shape: AlphaShape | AlphaShape3D) -> dict[str, str]:
@@ -164,9 +175,17 @@ def _lines(choice: RadiusChoice, shape: AlphaShape | AlphaShape3D) -> dict[str, 
         for name in (*told, "isolated_vertices")
         if name in shape.counts and (name != "triangles" or "tetrahedra" not in shape.counts)
     }
-    texts = {"volume": volume_text, "perimeter": length_text}
+    texts = {
+        "area": area_text,
+        "perimeter": length_text,
+        "volume": volume_text,
+        "surface_area": area_text,
+        "regions": "{:,}".format,
+        "voids": "{:,}".format,
+    }
     sizes = {
-        name.replace("_", " ").capitalize(): texts.get(name, area_text)(size)
+        name.replace("_", " ").capitalize(): texts[name](size)
         for name, size in _sizes(shape).items()
+        if name in texts
     }
     return {"Radius": radius_text(choice), "": choice.reason, **counts, **sizes}

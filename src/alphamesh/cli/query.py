@@ -70,7 +70,7 @@ def command(
     check_targets(tables, places)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        given = InputOptions(columns=places_columns)
+        given = InputOptions(columns=places_columns, dimension=2)
         known = load(places, given, steps, attributes=True)
         job = Job.begin(source, options, steps)
         choice, shape = shape_at(job, options, steps)

@@ -48,19 +48,21 @@ _EXAMPLES = (
 )
 @click.option("--regions", type=click.IntRange(1), metavar="N", help="At most N regions.")
 @click.option("--triangles", type=click.IntRange(1), metavar="N", help="At least N triangles.")
+@click.option("--tetrahedra", type=click.IntRange(1), metavar="N", help="So many in space.")
 @cloud_options
 def command(source: str, rule: str, **options: Any) -> None:
     """Choose a radius for a cloud, and say why.
 
     INPUT is a mask image, a file of points, "-" for a table on standard input,
     or demo:NAME for a built-in shape. The options --betti, --components,
-    --holes and --min-hole are those of the rule topology, --regions and
-    --triangles those of the rules regions and triangle-count.
+    --holes and --min-hole are those of the rule topology, --regions,
+    --triangles and --tetrahedra those of the rules regions, triangle-count
+    and, in space, tetrahedron-count.
     """
     wanted = {name: options.pop(name) for name in RULE_OPTIONS}
     wanted = {name: value for name, value in wanted.items() if value is not None}
     with Steps(quiet=options["quiet"]) as steps:
-        job = Job.begin(source, options, steps)
+        job = Job.begin(source, options, steps, space=True)
         with steps.step("Choosing the radius"):
             choice = job.complex.choose_radius(None if rule == AUTO else rule, **wanted)
     facts, lines = _told(choice)

@@ -183,6 +183,7 @@ RULE_OPTIONS: dict[str, ParamType] = {
     "min_hole": click.FloatRange(0),
     "regions": click.IntRange(1),
     "triangles": click.IntRange(1),
+    "tetrahedra": click.IntRange(1),
 }
 """Options of rules; what a rule does not know, it refuses by itself."""
 
