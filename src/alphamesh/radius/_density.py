@@ -21,7 +21,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray, IntArray
-    from alphamesh.filtration import Filtration
+    from alphamesh.filtration import AnyFiltration
 
 __all__ = ["Density", "local_density"]
 
@@ -84,7 +84,7 @@ class Density:
         return np.exp(self.logs)
 
 
-def local_density(filtration: Filtration) -> Density:
+def local_density(filtration: AnyFiltration) -> Density:
     """Return the density about each edge; the cloud must not be on one line."""
     radii = filtration.radii[1]
     gabriel = radii < filtration.edge_intervals.regular_from

@@ -9,7 +9,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
-    from alphamesh.filtration import Filtration
+    from alphamesh.filtration import AnyFiltration
     from alphamesh.radius._density import Density
     from alphamesh.radius._noise import Gaps
 
@@ -43,7 +43,7 @@ class Outliers:
 
 
 def find_outliers(
-    filtration: Filtration, density: Density, gaps: Gaps, least: float
+    filtration: AnyFiltration, density: Density, gaps: Gaps, least: float
 ) -> Outliers:
     """Count the points that get their first edge later than chance explains.
 
@@ -63,7 +63,7 @@ def find_outliers(
     return Outliers(max(beyond - 0.5, _UNSEEN), len(first), gaps)
 
 
-def _edges_at(filtration: Filtration, rows: IntArray) -> IntArray:
+def _edges_at(filtration: AnyFiltration, rows: IntArray) -> IntArray:
     """Return an edge at each of some points."""
     wanted = np.zeros(len(filtration.points), dtype=bool)
     wanted[rows] = True

@@ -8,12 +8,12 @@ import numpy as np
 
 if TYPE_CHECKING:
     from alphamesh._arrays import IntArray
-    from alphamesh.filtration import Filtration
+    from alphamesh.filtration import AnyFiltration
 
 __all__ = ["ends_of"]
 
 
-def ends_of(filtration: Filtration, edges: IntArray) -> IntArray:
+def ends_of(filtration: AnyFiltration, edges: IntArray) -> IntArray:
     """Return the ends of some edges as positions in ``filtration.simplices[0]``, (k, 2)."""
     rows = filtration.simplices[1].take(edges, axis=0)
     vertices = filtration.simplices[0][:, 0]
