@@ -50,7 +50,7 @@ def test_meshes_of_solids(run, name):
     assert len(read_mesh("solid.off").cells["triangle"]) == triangles
     lines = run("mesh", name, "--radius", "0.3")
     volume = f"{am.AlphaComplex(am.read_points(name)).at(0.3).volume:.6g}"
-    assert f"Volume            {volume}" in lines and "Voids             1\n" in lines
+    assert f"{'Volume':19}{volume}" in lines and f"{'Voids':19}1\n" in lines
 
 
 def test_what_commands_tell_of_clouds_in_space(run):

@@ -27,7 +27,7 @@ __all__ = [
     "volume_text",
 ]
 
-_LABEL_WIDTH = 17
+_LABEL_WIDTH = 18
 _WIDEST = 96
 
 
