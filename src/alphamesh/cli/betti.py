@@ -47,7 +47,7 @@ def command(
     radius: float | Rule,
     **options: Any,
 ) -> None:
-    """Count components and holes at every radius.
+    """Count components and holes at every radius; in space, tunnels and voids.
 
     INPUT is a mask image, a file of points, "-" for standard input, or demo:NAME
     for a built-in shape. The curve is exact: b0 components and b1 holes from each
@@ -58,11 +58,11 @@ def command(
     need_matplotlib(picture is not None)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        job = Job.begin(source, options, steps)
+        job = Job.begin(source, options, steps, space=True)
         with steps.step("Pairing simplices") as done:
             pairs = job.complex.persistence(threads=options["threads"], progress=done)
         radii, numbers = pairs.betti_curve()
-        columns = {"radius": radii, "b0": numbers[:, 0], "b1": numbers[:, 1]}
+        columns = {"radius": radii} | {f"b{k}": row for k, row in enumerate(numbers.T)}
         choice = job.choose(radius, steps)
         files = [Output(path, lambda path: write_table(path, columns)) for path in tables]
         if picture is not None:
@@ -74,17 +74,17 @@ def command(
 
             files.append(Output(picture, draw))
         outputs.write(files, steps)
-    b0, b1 = (int(number) for number in pairs.betti_numbers(choice.radius))
+    found = pairs.betti_numbers(choice.radius).tolist()
+    classes = ("component", "hole") if len(found) == 2 else ("component", "tunnel", "void")
     facts = {
         "radius": choice.radius,
         "rule": choice.rule,
-        "components": b0,
-        "holes": b1,
+        **{f"{name}s": number for name, number in zip(classes, found, strict=True)},
         "steps": len(radii),
     }
     lines = {
         "Radius": radius_text(choice),
-        "Betti numbers": f"{counted(b0, 'component')}, {counted(b1, 'hole')}",
+        "Betti numbers": ", ".join(map(counted, found, classes)),
         "Curve": counted(len(radii), "step"),
     }
     job.tell(facts, lines, outputs)

@@ -77,7 +77,7 @@ def command(
     need_matplotlib(picture is not None)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        job = Job.begin(source, options, steps)
+        job = Job.begin(source, options, steps, space=True)
         with steps.step("Pairing simplices") as done:
             pairs = job.complex.persistence(threads=options["threads"], progress=done)
         files = [Output(path, lambda path: _write(pairs, squared, path)) for path in tables]
