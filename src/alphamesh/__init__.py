@@ -37,20 +37,30 @@ if TYPE_CHECKING:
     from alphamesh.persistence import Persistence, persistence
     from alphamesh.planar import Selection
     from alphamesh.queries import Nearest
+    from alphamesh.queries3d import Nearest3D
     from alphamesh.radius import RadiusChoice, choose_radius
     from alphamesh.regions import Holes, Regions
     from alphamesh.regions3d import Regions3D, Voids
     from alphamesh.restricted import RestrictedVoronoi, restricted_voronoi
-    from alphamesh.sampling import DEMO_SHAPES, demo_cloud, demo_mask
+    from alphamesh.sampling import (
+        DEMO_SHAPES,
+        DEMO_SOLIDS,
+        demo_cloud,
+        demo_mask,
+        sample_solid,
+    )
     from alphamesh.shape import AlphaShape
     from alphamesh.shape3d import AlphaShape3D
+    from alphamesh.shells import Shells
     from alphamesh.solid import Selection3D
+    from alphamesh.surface import Surface, boundary_surface
     from alphamesh.voronoi import ClippedVoronoi, Voronoi, voronoi
 
     __version__: str
 
 __all__ = [
     "DEMO_SHAPES",
+    "DEMO_SOLIDS",
     "FRAME_SHAPES",
     "MESH_FORMATS",
     "AlphaComplex",
@@ -72,6 +82,7 @@ __all__ = [
     "MeasureCurves3D",
     "Mesh",
     "Nearest",
+    "Nearest3D",
     "Persistence",
     "RadiusChoice",
     "Regions",
@@ -80,11 +91,14 @@ __all__ = [
     "Rings",
     "Selection",
     "Selection3D",
+    "Shells",
     "SimplexKind",
+    "Surface",
     "Voids",
     "Voronoi",
     "__version__",
     "animate",
+    "boundary_surface",
     "check",
     "choose_radius",
     "convex_hull",
@@ -100,6 +114,7 @@ __all__ = [
     "read_points",
     "restricted_voronoi",
     "sample_mask",
+    "sample_solid",
     "voronoi",
     "write_mesh",
 ]
@@ -126,14 +141,17 @@ _HOMES = {
     "persistence": ("Persistence", "persistence"),
     "planar": ("Selection",),
     "queries": ("Nearest",),
+    "queries3d": ("Nearest3D",),
     "radius": ("RadiusChoice", "choose_radius"),
     "regions": ("Holes", "Regions"),
     "regions3d": ("Regions3D", "Voids"),
     "restricted": ("RestrictedVoronoi", "restricted_voronoi"),
-    "sampling": ("DEMO_SHAPES", "demo_cloud", "demo_mask"),
+    "sampling": ("DEMO_SHAPES", "DEMO_SOLIDS", "demo_cloud", "demo_mask", "sample_solid"),
     "shape": ("AlphaShape",),
     "shape3d": ("AlphaShape3D",),
     "solid": ("Selection3D",),
+    "shells": ("Shells",),
+    "surface": ("Surface", "boundary_surface"),
     "voronoi": ("ClippedVoronoi", "Voronoi", "voronoi"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

@@ -12,6 +12,7 @@ from alphamesh.io._layout import TextOptions
 from alphamesh.io._npy import read_npy, read_npz
 from alphamesh.io._parquet import read_parquet
 from alphamesh.io._ply import read_ply
+from alphamesh.io._scans import read_las, read_pcd
 from alphamesh.io._sources import Source, open_source
 from alphamesh.io._text import read_text
 
@@ -29,14 +30,23 @@ _TEXT: dict[str, str | None] = {
     "dat": None,
     "xyz": None,
 }
-_BINARY = {"npy": read_npy, "parquet": read_parquet, "ply": read_ply}
+_BINARY = {
+    "las": read_las,
+    "laz": read_las,
+    "npy": read_npy,
+    "parquet": read_parquet,
+    "pcd": read_pcd,
+    "ply": read_ply,
+}
 
 # Where three columns without names are coordinates, as a rule.
 _UNNAMED = frozenset({"xyz", "npy", "npz"})
 
 _IMAGES = frozenset({"png", "jpg", "jpeg", "tif", "tiff", "gif", "bmp", "webp", "pgm", "pbm"})
 
-POINT_FORMATS: tuple[str, ...] = (*_TEXT, "npy", "npz", "parquet", "ply")
+POINT_FORMATS: tuple[str, ...] = (
+    *_TEXT, "las", "laz", "npy", "npz", "parquet", "pcd", "ply",
+)  # fmt: skip
 """The formats that :func:`read_points` reads, each also a file name extension."""
 
 
@@ -57,7 +67,8 @@ def read_points(  # noqa: PLR0913 (one keyword per property of a text table)
     """Read the coordinates of points from a file.
 
     Text tables (CSV, TSV, TXT, DAT, XYZ; also packed as ``.gz``), NPY and NPZ, Parquet,
-    and the vertices of PLY files, ASCII or binary.
+    the vertices of PLY files, ASCII or binary, and the clouds of scanners: LAS and LAZ
+    (with laspy), PCD (with pypcd4).
 
     Parameters
     ----------
@@ -71,8 +82,8 @@ def read_points(  # noqa: PLR0913 (one keyword per property of a text table)
         east(ing) and north(ing); if no name is one of these, the first columns.
     dimension : {2, 3}, optional
         How many coordinates to read: by default as many as `columns`. Without these, 3
-        if there is a column z beside x and y, as in most PLY files, or if an XYZ, NPY or
-        NPZ file has three columns without names, unless all z are equal; else 2. So
+        if there is a column z beside x and y, as in most PLY and LAS files, or if an XYZ,
+        NPY or NPZ file has three columns without names, unless all z are equal; else 2. So
         ``dimension=2`` leaves z out.
     file_format : str, optional
         One of :data:`POINT_FORMATS`, whatever the extension says.
@@ -107,7 +118,7 @@ def read_points(  # noqa: PLR0913 (one keyword per property of a text table)
     ParameterError
         If a parameter has no possible value, or does not go with the format.
     MissingLibraryError
-        For Parquet, if pyarrow is not installed.
+        For Parquet, LAS, LAZ or PCD, if the library that reads it is not installed.
 
     Examples
     --------
