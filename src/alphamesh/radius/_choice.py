@@ -50,8 +50,8 @@ class RadiusChoice:
     clear : bool
         False if the cloud gives no clear answer; `reason` then says so.
     strays : int
-        Small pieces of the complex that hold no triangle, such as outliers standing
-        alone. They are not counted as components in `betti`.
+        Small pieces of the complex at `radius` that look like outliers; they are not
+        counted as components in `betti`.
     """
 
     radius: float

@@ -9,7 +9,7 @@ import numpy as np
 from alphamesh.persistence import persistence
 from alphamesh.radius._choice import RadiusChoice
 from alphamesh.radius._registry import radius_rule
-from alphamesh.radius._words import components_and_holes
+from alphamesh.radius._words import apart, components_and_holes
 
 if TYPE_CHECKING:
     from alphamesh.filtration import Filtration
@@ -27,8 +27,9 @@ def _longest_interval(filtration: Filtration) -> RadiusChoice:
     widest = int(np.argmax(radii[1:] / 2 - radii[:-1] / 2))
     low, high = radii[widest : widest + 2].tolist()
     b0, b1 = numbers[widest].tolist()
+    start, end = apart(low, high)
     reason = (
-        f"From {low:.4g} to {high:.4g} the shape keeps its {components_and_holes(b0, b1)}: no "
+        f"From {start} to {end} the shape keeps its {components_and_holes(b0, b1)}: no "
         "other range of radii without a change is so wide, before all holes are filled and "
         "all is one piece. This is its middle."
     )

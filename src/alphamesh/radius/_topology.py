@@ -2,36 +2,39 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+import math
+from dataclasses import replace
+from numbers import Real
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from alphamesh.errors import ParameterError
 from alphamesh.persistence import persistence
 from alphamesh.radius._choice import RadiusChoice, RadiusInterval
+from alphamesh.radius._explain import Findings, explain
+from alphamesh.radius._options import whole_number
 from alphamesh.radius._registry import radius_rule
-from alphamesh.radius._words import components_and_holes
+from alphamesh.radius._stages import Stages, stages_of
+from alphamesh.radius._words import counted
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import CountArray, FloatArray
+    from alphamesh._arrays import BoolArray, CountArray, FloatArray
     from alphamesh.filtration import Filtration
     from alphamesh.persistence import Persistence
 
 _RULE = "topology"
-_RIVALS = 3
-# A radius stays near the low end of its interval, where the least has been filled in.
-_MARGIN = 1.02
-# Enough points in a disc; keeps infinities out of the sums.
-_BEYOND_DOUBT = 1e9
+# A radius a little above the low end of its range: hardly more is filled in, and the
+# range may be a little off.
+_STEP = 1.1
+_WIDE = _STEP**2
+_TINY = 1e-300
+_CLEAR = 0.75
+_FEW = 10
+_RUNNERS_UP = 3
+_UNLIKELY = 0.01
 
-
-class _Steps(NamedTuple):
-    """Ranges of radii with constant Betti numbers, and the evidence for each."""
-
-    low: FloatArray
-    high: FloatArray
-    betti: CountArray
-    score: FloatArray
+Wanted = tuple[int | None, int | None]
 
 
 @radius_rule(_RULE, columns=(2,))
@@ -45,152 +48,192 @@ def _topology(
 ) -> RadiusChoice:
     """Choose the range of radii that explains the persistence pairs best.
 
-    If n points are drawn at random with the intensity `m` per unit of area, about
-    ``n x exp(-x)`` loops die beyond ``x = m pi r^2``, the number of points expected in a
-    disc, and ``n exp(-2 x)`` components stand alone at r: the noise of sampling. A class
-    that lives on is evidence for the shape, the more the less likely noise explains it.
-    At each radius, the evidence of all classes that are alive is added up (log-likelihood
-    ratios of shape against noise); the range with the highest sum wins. The confidence is
-    ``1 - exp(-lead)``, `lead` being the difference to the best range of another shape.
+    Each loop and each piece has a weight: how much likelier it is a feature of the shape
+    than an accident of a random sample of the local density. At each radius, the weights
+    of all that is there add up; the largest sum wins, at the smallest such radius.
+
+    The confidence is the probability of the chosen numbers of components and holes, each
+    pair of numbers standing with the likelihood ``exp(sum)`` of its best radius.
     """
-    if filtration.dimension == 0:
-        reason = "All points are at one place: one component at any radius."
-        return RadiusChoice(0.0, _RULE, reason)
-    pairs = persistence(filtration)
-    steps = _steps(filtration, pairs, min_hole)
     wanted = _wanted(betti, components, holes)
-    fits = np.ones(len(steps.low), dtype=bool)
-    for k, number in enumerate(wanted):
+    smallest = _checked_size(min_hole)
+    if filtration.dimension == 0:
+        if not _fits(np.array([[1, 0]]), wanted).all():
+            raise _nowhere(wanted)
+        reason = "All points are at one place: one component at any radius."
+        return RadiusChoice(
+            0.0, _RULE, reason, interval=(0.0, math.inf), betti=(1, 0), confidence=1.0
+        )
+    pairs = persistence(filtration)
+    stages = stages_of(pairs, smallest)
+    fits = _fits(stages.betti, wanted)
+    if not (stages.allowed & fits).any():
+        return _anywhere(pairs, wanted)
+    choice = _best(pairs, stages, stages.allowed & fits)
+    if wanted == (None, None):
+        return choice
+    return replace(choice, reason=f"{_wish(wanted).capitalize()}, as asked. {choice.reason}")
+
+
+def _wanted(betti: Any, components: int | None, holes: int | None) -> Wanted:
+    if betti is not None:
+        if components is not None or holes is not None:
+            raise ParameterError(
+                "give either betti=(b0, b1), or components= and holes=, not both"
+            )
+        try:
+            components, holes = betti
+        except (TypeError, ValueError):
+            raise ParameterError(
+                f"betti must be two numbers (components, holes); got {betti!r}"
+            ) from None
+    return (
+        None if components is None else whole_number("components", components, 1),
+        None if holes is None else whole_number("holes", holes, 0),
+    )
+
+
+def _checked_size(min_hole: Any) -> float:
+    if isinstance(min_hole, Real) and 0.0 <= float(min_hole) < math.inf:
+        return float(min_hole)
+    raise ParameterError(
+        "min_hole must be the radius of the smallest hole that counts, 0 or more; "
+        f"got {min_hole!r}"
+    )
+
+
+def _fits(betti: CountArray, wanted: Wanted) -> BoolArray:
+    """Return which numbers of components and holes are those that were asked for."""
+    fits = np.ones(len(betti), dtype=bool)
+    for column, number in enumerate(wanted):
         if number is not None:
-            fits &= steps.betti[:, k] == number
-    if not fits.any():
-        raise ParameterError(
-            f"no radius gives {_wish(wanted)}; "
-            "see betti_curve() of the persistence for the numbers that there are"
-        )
-    score = np.where(fits, steps.score, -np.inf)
-    return _choice(steps, score)
+            fits &= betti[:, column] == number
+    return fits
 
 
-def _wanted(
-    betti: tuple[int, int] | None, components: int | None, holes: int | None
-) -> tuple[int | None, int | None]:
-    if betti is None:
-        return components, holes
-    if components is not None or holes is not None:
-        raise ParameterError("give either betti=(b0, b1), or components= and holes=, not both")
-    return betti[0], betti[1]
-
-
-def _wish(wanted: tuple[int | None, int | None]) -> str:
-    named = zip(wanted, ("components", "holes"), strict=True)
-    return " and ".join(f"{number} {what}" for number, what in named if number is not None)
-
-
-def _expected(filtration: Filtration, radii: FloatArray) -> FloatArray:
-    """Return how many points a disc holds on average, judged by nearest neighbours.
-
-    The squared distances of random points to their nearest neighbours, times pi and the
-    intensity, are distributed exponentially: half of them are below log(2).
-    """
-    median = 2.0 * float(np.median(filtration.joined_from))
-    with np.errstate(over="ignore"):
-        ratio = radii / median if median > 0.0 else radii
-        expected = np.minimum(np.log(2.0) * ratio**2, _BEYOND_DOUBT)
-        return np.asarray(expected, dtype=np.float64)
-
-
-def _evidence(
-    filtration: Filtration, pairs: Persistence, min_hole: float
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return birth, death and the weight of evidence of each class."""
-    n = len(filtration.simplices[0])
-    scale = np.log(max(n, 10))  # a class of the shape may have any size: log-uniform
-    loops = pairs.diagram(1)
-    born, dead = _expected(filtration, loops).T
-    weight = dead - np.log(n * dead) - np.log(dead * scale)
-    # A loop that closes only over a gap too wide for noise is not of this scale.
-    gap = born - np.log(2.0 * n)
-    weight = np.where(gap > 0.0, -gap - 1.0, weight)
-    weight -= 2.0 * (dead - born < np.minimum(1.0, 0.2 * dead))
-    if min_hole > 0.0:
-        weight = np.where(loops[:, 1] < min_hole, -np.abs(weight), np.abs(weight))
-    joined = pairs.diagram(0)[:, 1]
-    joined = joined[np.isfinite(joined)]
-    apart = _expected(filtration, joined)
-    lone = apart - np.log(2.0 * n) - np.log(np.maximum(apart, 0.1) * scale)
-    births = np.concatenate((loops[:, 0], np.zeros(len(joined))))
-    return births, np.concatenate((loops[:, 1], joined)), np.concatenate((weight, lone))
-
-
-def _steps(filtration: Filtration, pairs: Persistence, min_hole: float) -> _Steps:
-    births, deaths, weight = _evidence(filtration, pairs, min_hole)
-    low, betti = pairs.betti_curve()
-    at = np.concatenate((births, deaths))
-    change = np.concatenate((weight, -weight))
-    order = np.argsort(at, kind="stable")
-    total = np.concatenate(([0.0], np.cumsum(change[order])))
-    score = total[np.searchsorted(at[order], low, side="right")]
-    score = np.asarray(np.round(score, 9), dtype=np.float64)  # equal evidence, equal score
-    return _Steps(low, np.append(low[1:], np.inf), betti, score)
-
-
-def _choice(steps: _Steps, score: FloatArray) -> RadiusChoice:
-    best = int(np.argmax(score))
-    low, high = float(steps.low[best]), float(steps.high[best])
-    b0, b1 = steps.betti[best].tolist()
-    radius = (low + min(high, _MARGIN * low)) / 2.0
-    others = _others(steps, score, (b0, b1))
-    lead = float(score[best] - score[others[0]]) if others else np.inf
-    confidence = 1.0 - float(np.exp(-max(lead, 0.0)))
-    clear = confidence > 0.5
-    rivals = tuple(
-        RadiusInterval(
-            float(steps.low[i]), float(steps.high[i]), tuple(steps.betti[i].tolist())
-        )
-        for i in others
+def _best(pairs: Persistence, stages: Stages, eligible: BoolArray) -> RadiusChoice:
+    weight = np.where(eligible, stages.weight, -np.inf)
+    stage = _first_wide(stages, weight)
+    confidence, others = _rivals(stages, weight, stage)
+    low, high = _widened(stages, stage)
+    radius = low * math.sqrt(min(high / low, _STEP**2)) if low > 0.0 else high / 2.0
+    interval = RadiusInterval(low, high, _numbers(stages.betti[stage]))
+    strays = int(pairs.betti_numbers(radius)[0]) - interval.betti[0]
+    there = (stages.loops.births <= radius) & (radius < stages.loops.deaths)
+    accidents = int(np.count_nonzero(there & (stages.loops.weights < 0.0)))
+    points = len(pairs.filtration.simplices[0])
+    clear = confidence >= _CLEAR and accidents == 0 and points >= _FEW
+    after = np.flatnonzero(stages.low == high)
+    findings = Findings(
+        points,
+        pairs.filtration.dimension == 1,
+        interval,
+        stages.noise,
+        float(stages.loops.contents.compress(there).min(initial=np.inf)),
+        _numbers(stages.betti[after[0]] - stages.betti[stage]) if len(after) else (0, 0),
+        strays,
+        accidents,
+        confidence,
+        clear,
+        others[0] if others else None,
     )
     return RadiusChoice(
         radius,
         _RULE,
-        _reason(low, high, (b0, b1), rivals, clear),
+        explain(findings),
         interval=(low, high),
-        betti=(b0, b1),
+        betti=interval.betti,
         confidence=confidence,
-        runners_up=rivals,
+        runners_up=others,
         clear=clear,
+        strays=strays,
     )
 
 
-def _others(steps: _Steps, score: FloatArray, betti: tuple[int, int]) -> list[int]:
-    """Return the best ranges that give other shapes, one for each shape."""
-    found: dict[tuple[int, ...], int] = {}
-    for i in np.argsort(-score, kind="stable")[:1000].tolist():
-        shape = tuple(steps.betti[i].tolist())
-        if score[i] == -np.inf or len(found) == _RIVALS:
-            break
-        if shape != betti:
-            found.setdefault(shape, i)
-    return list(found.values())
+def _first_wide(stages: Stages, weight: FloatArray) -> int:
+    """Return the first wide one of the best stages, or the widest of them.
+
+    The same loops and pieces can be there in several ranges, where a loop that hardly lives
+    comes between.
+    """
+    first = int(np.argmax(weight))
+    same = (stages.betti == stages.betti[first]).all(axis=1)
+    best = np.flatnonzero(same & (weight == weight[first]))
+    widths = stages.high.take(best) / np.maximum(stages.low.take(best), _TINY)
+    return int(best[int(np.argmax(np.minimum(widths, _WIDE)))])
 
 
-def _reason(
-    low: float,
-    high: float,
-    betti: tuple[int, int],
-    rivals: tuple[RadiusInterval, ...],
-    clear: bool,
-) -> str:
-    shape = components_and_holes(*betti)
-    until = f"up to {high:.4g}" if np.isfinite(high) else "however large the radius"
-    text = (
-        f"From radius {low:.4g} {until} the shape has {shape}: the small gaps that are left "
-        "by chance between random points have closed, and what is left is too large for that."
+def _rivals(
+    stages: Stages, weight: FloatArray, stage: int
+) -> tuple[float, tuple[RadiusInterval, ...]]:
+    """Return how likely the shape of a stage is, and the ranges of the next likely ones."""
+    kinds = _best_of_each_shape(stages.betti, weight)
+    odds = np.exp(weight.take(kinds) - weight[stage])
+    chances = odds / odds.sum()
+    rivals = [
+        i for i, chance in zip(kinds.tolist(), chances, strict=True) if chance >= _UNLIKELY
+    ]
+    return float(chances[0]), tuple(
+        RadiusInterval(*_widened(stages, i), _numbers(stages.betti[i]))
+        for i in rivals[1 : _RUNNERS_UP + 1]
     )
-    if clear or not rivals:
-        return text
-    rival = rivals[0]
-    return (
-        f"{text} But the cloud gives no clear answer: radius {rival.low:.4g} with "
-        f"{components_and_holes(*rival.betti)} explains it nearly as well."
+
+
+def _best_of_each_shape(betti: CountArray, weight: FloatArray) -> CountArray:
+    """Return the eligible stage of the largest weight of each shape, the best one first."""
+    order = np.argsort(-weight, kind="stable")
+    order = order[weight.take(order) > -np.inf]
+    _, first = np.unique(betti.take(order, axis=0), axis=0, return_index=True)
+    return order.take(np.sort(first))
+
+
+def _widened(stages: Stages, stage: int) -> tuple[float, float]:
+    """Return the range about a stage over which the numbers stay the same."""
+    differs = (stages.betti != stages.betti[stage]).any(axis=1)
+    before = np.flatnonzero(differs[:stage])
+    after = np.flatnonzero(differs[stage:])
+    first = int(before[-1]) + 1 if len(before) else 0
+    high = float(stages.low[stage + int(after[0])]) if len(after) else math.inf
+    # Below the first allowed stage not everything is followed.
+    first = max(first, int(np.argmax(stages.allowed)))
+    return float(stages.low[first]), high
+
+
+def _numbers(betti: CountArray) -> tuple[int, int]:
+    b0, b1 = betti.tolist()
+    return b0, b1
+
+
+def _anywhere(pairs: Persistence, wanted: Wanted) -> RadiusChoice:
+    """Choose the widest range that has the wanted numbers, noise and strays included."""
+    radii, numbers = pairs.betti_curve()
+    fits = np.flatnonzero(_fits(numbers, wanted))
+    if len(fits) == 0:
+        raise _nowhere(wanted)
+    low, high = radii, np.append(radii[1:], np.inf)
+    step = int(fits[np.argmax((high / 2 - low / 2).take(fits))])
+    betti = _numbers(numbers[step])
+    radius = low[step] / 2 + high[step] / 2 if math.isfinite(high[step]) else low[step]
+    return RadiusChoice(
+        float(radius),
+        _RULE,
+        f"Only while noise is still there does the complex have what was asked for "
+        f"({_wish(wanted)}), from {low[step]:.4g} to {high[step]:.4g}; the cloud gives no "
+        "clear answer.",
+        interval=(float(low[step]), float(high[step])),
+        betti=betti,
+        confidence=0.0,
+        clear=False,
     )
+
+
+def _nowhere(wanted: Wanted) -> ParameterError:
+    return ParameterError(
+        f"no radius gives {_wish(wanted)}; see persistence().betti_curve() for the numbers "
+        "that there are"
+    )
+
+
+def _wish(wanted: Wanted) -> str:
+    named = zip(wanted, ("component", "hole"), strict=True)
+    return " and ".join(counted(number, what) for number, what in named if number is not None)

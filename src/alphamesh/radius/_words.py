@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["CELLS", "components_and_holes", "counted", "flat_text"]
+__all__ = ["CELLS", "apart", "components_and_holes", "counted", "flat_text"]
 
 #: What the largest simplices of a cloud of each dimension are called: one, several.
 CELLS = {
@@ -18,6 +18,15 @@ def flat_text(points: str, dimension: int, columns: int) -> str:
     if dimension == columns:
         return ""
     return f"{points} lie {_FLATS[dimension]}, so there are no {CELLS[columns][1]}. "
+
+
+def apart(low: float, high: float) -> tuple[str, str]:
+    """Return two numbers, rounded no more than keeps them apart."""
+    for digits in range(4, 17):
+        texts = f"{low:.{digits}g}", f"{high:.{digits}g}"
+        if texts[0] != texts[1]:
+            return texts
+    return repr(low), repr(high)
 
 
 def counted(number: int, singular: str, plural: str | None = None) -> str:

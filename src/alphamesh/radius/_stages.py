@@ -1,0 +1,133 @@
+"""Stages: ranges of radii with the same shape, and how much speaks for each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from alphamesh.radius._density import local_density
+from alphamesh.radius._loops import Loops, weighed_loops
+from alphamesh.radius._noise import Gaps, noise_content, noise_square
+from alphamesh.radius._outliers import find_outliers
+from alphamesh.radius._pieces import Pieces, weighed_pieces
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import BoolArray, CountArray, FloatArray
+    from alphamesh.persistence import Persistence
+
+__all__ = ["Stages", "stages_of"]
+
+# No stage below this part of the radius at which chance voids die is looked at.
+_EARLIEST = 0.45
+# Narrower ranges, in parts of the radius, are made by rounding: of points on one circle,
+# say, whose triangles would all come at once.
+_NARROWEST = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Stages:
+    """Ranges of radii, ``low <= radius < high``, one after the other.
+
+    Attributes
+    ----------
+    low, high : (m,) float64
+    betti : (m, 2) int64
+        Components, without strays, and holes.
+    weight : (m,) float64
+        Sum of the weights of the pieces and loops that are there.
+    allowed : (m,) bool
+        Whether the noise has died far enough for a shape to be told at all, and a radius
+        can be told from the next.
+    loops : Loops
+    noise : float
+        The radius of the largest empty disc that chance leaves.
+    """
+
+    low: FloatArray
+    high: FloatArray
+    betti: CountArray
+    weight: FloatArray
+    allowed: BoolArray
+    loops: Loops
+    noise: float
+
+
+def stages_of(pairs: Persistence, min_hole: float) -> Stages:
+    """Weigh every range of radii of a cloud of at least two places.
+
+    Parameters
+    ----------
+    pairs : Persistence
+    min_hole : float
+        Loops that die at a smaller radius are no holes.
+    """
+    if pairs.filtration.dimension == 1:
+        return _stages_on_a_line(pairs)
+    density = local_density(pairs.filtration)
+    n = len(pairs.filtration.simplices[0])
+    typical = np.sqrt(noise_content(n) / np.median(density.all_rates()))
+    least = _EARLIEST * density.unit * float(typical)
+    noise = density.unit * float(np.sqrt(noise_square(density.all_rates(), n)))
+    tree = pairs.pairs[0][:, 1]
+    gaps = Gaps.of(density.content(pairs.deaths[0], tree))
+    outliers = find_outliers(pairs.filtration, density, gaps, least)
+    loops = weighed_loops(pairs, density, outliers, least)
+    if min_hole > 0.0:
+        small = loops.deaths < min_hole
+        loops = loops._replace(weights=np.where(small, -50.0, loops.weights))
+    pieces = weighed_pieces(pairs, density, outliers, least)
+    return _swept(pairs, loops, pieces, least, noise)
+
+
+def _stages_on_a_line(pairs: Persistence) -> Stages:
+    """Weigh the gaps between points on one line, which are spread like exp(-length)."""
+    gaps = pairs.deaths[0]
+    with np.errstate(over="ignore"):
+        lengths = np.minimum(gaps / (float(np.median(gaps)) or 1.0), 1e6)
+    contents = lengths**2
+    weight = Gaps.of(contents).weight(contents, len(gaps) + 1, len(gaps) + 1)
+    pieces = Pieces(
+        [0.0] * len(gaps) + gaps.tolist() + [0.0],
+        [*weight.tolist(), *(-weight).tolist(), 0.0],
+        [1] * len(gaps) + [-1] * len(gaps) + [1],
+    )
+    none = np.empty(0)
+    return _swept(pairs, Loops(none, none, none, none), pieces, 0.0, 0.0)
+
+
+def _swept(
+    pairs: Persistence, loops: Loops, pieces: Pieces, least: float, noise: float
+) -> Stages:
+    """Add up the weights of what is there, radius by radius."""
+    count = len(loops.births)
+    radii = np.concatenate((loops.births, loops.deaths, pieces.radii, _before(pairs, least)))
+    extra = len(radii) - 2 * count - len(pieces.radii)
+    change = np.zeros((len(radii), 2), dtype=np.int64)
+    change[:count, 1], change[count : 2 * count, 1] = 1, -1
+    change[2 * count : len(radii) - extra, 0] = pieces.components
+    weight = np.concatenate((loops.weights, -loops.weights, pieces.weights, np.zeros(extra)))
+    finite = np.isfinite(radii)  # what stays for ever never leaves
+    radii, change, weight = radii[finite], change[finite], weight[finite]
+    order = np.argsort(radii, kind="stable")
+    radii = radii.take(order)
+    last = np.append(radii[1:] > radii[:-1], True)
+    low = radii.compress(last)
+    high = np.append(low[1:], np.inf)
+    return Stages(
+        low,
+        high,
+        np.cumsum(change.take(order, axis=0), axis=0).compress(last, axis=0),
+        # Equal evidence shall give equal sums.
+        np.round(np.cumsum(weight.take(order)).compress(last), 6),
+        (high > least) & (high - low > _NARROWEST * low),
+        loops,
+        noise,
+    )
+
+
+def _before(pairs: Persistence, least: float) -> FloatArray:
+    """Return the last changes up to `least` of what is not followed one by one."""
+    radii = [values[values <= least] for values in (*pairs.deaths[:2], pairs.births[1])]
+    return np.array([0.0, *(values.max() for values in radii if len(values))])
