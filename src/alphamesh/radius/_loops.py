@@ -10,7 +10,7 @@ from alphamesh.radius._noise import log_range
 from alphamesh.radius._places import ends_of
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import FloatArray, IntArray
+    from alphamesh._arrays import BoolArray, FloatArray, IntArray
     from alphamesh.persistence import Persistence
     from alphamesh.radius._density import Density
     from alphamesh.radius._outliers import Outliers
@@ -19,8 +19,6 @@ __all__ = ["Loops", "weighed_loops"]
 
 # Holes are alike when the larger has less than this many times the content of the smaller.
 _ALIKE = float(np.exp(0.5))
-# Weight of a loop that outliers make.
-_BY_OUTLIERS = -3.0
 # At most this part of a content is put down to the error of the density.
 _DOUBT = 0.3
 # Edges around a hole, over the square root of its content: 2 pi / sqrt(log 2) / 2.
@@ -39,12 +37,15 @@ class Loops(NamedTuple):
     weights : (m,) float64
         Positive if the shape explains the loop better than chance: what speaks for a
         radius at which it is there.
+    by_outliers : (m,) bool
+        Whether an outlier rather than the shape closes the loop.
     """
 
     births: FloatArray
     deaths: FloatArray
     contents: FloatArray
     weights: FloatArray
+    by_outliers: BoolArray
 
 
 def weighed_loops(
@@ -66,9 +67,8 @@ def weighed_loops(
     sure = content - np.minimum(content**2 * density.variance(creators) / 2.0, _DOUBT * content)
     weight = np.log(prior / content) - (np.log(n * sure) - sure)
     # A loop across a gap of the shape is no hole at this scale.
-    weight = np.minimum(weight, -bridge)
-    weight += by_outliers * (np.minimum(weight, _BY_OUTLIERS) - weight)
-    return Loops(births, deaths, content, weight)
+    weight = (1.0 - by_outliers) * np.minimum(weight, -bridge)
+    return Loops(births, deaths, content, weight, by_outliers >= 0.5)
 
 
 def _alike(contents: FloatArray, others: FloatArray) -> FloatArray:

@@ -21,6 +21,9 @@ __all__ = ["Stages", "stages_of"]
 
 # No stage below this part of the radius at which chance voids die is looked at.
 _EARLIEST = 0.45
+# What speaks against a radius at which outliers make a loop. More such loops speak less
+# and less against it: with many outliers, some are made at any radius.
+_BY_OUTLIERS = 3.0
 # Narrower ranges, in parts of the radius, are made by rounding: of points on one circle,
 # say, whose triangles would all come at once.
 _NARROWEST = 1e-6
@@ -94,7 +97,7 @@ def _stages_on_a_line(pairs: Persistence) -> Stages:
         [1] * len(gaps) + [-1] * len(gaps) + [1],
     )
     none = np.empty(0)
-    return _swept(pairs, Loops(none, none, none, none), pieces, 0.0, 0.0)
+    return _swept(pairs, Loops(none, none, none, none, none.astype(bool)), pieces, 0.0, 0.0)
 
 
 def _swept(
@@ -104,8 +107,9 @@ def _swept(
     count = len(loops.births)
     radii = np.concatenate((loops.births, loops.deaths, pieces.radii, _before(pairs, least)))
     extra = len(radii) - 2 * count - len(pieces.radii)
-    change = np.zeros((len(radii), 2), dtype=np.int64)
+    change = np.zeros((len(radii), 3), dtype=np.int64)
     change[:count, 1], change[count : 2 * count, 1] = 1, -1
+    change[:count, 2], change[count : 2 * count, 2] = loops.by_outliers, -1 * loops.by_outliers
     change[2 * count : len(radii) - extra, 0] = pieces.components
     weight = np.concatenate((loops.weights, -loops.weights, pieces.weights, np.zeros(extra)))
     finite = np.isfinite(radii)  # what stays for ever never leaves
@@ -115,12 +119,14 @@ def _swept(
     last = np.append(radii[1:] > radii[:-1], True)
     low = radii.compress(last)
     high = np.append(low[1:], np.inf)
+    numbers = np.cumsum(change.take(order, axis=0), axis=0).compress(last, axis=0)
+    total = np.cumsum(weight.take(order)).compress(last)
+    total -= _BY_OUTLIERS * np.log2(1.0 + numbers[:, 2])
     return Stages(
         low,
         high,
-        np.cumsum(change.take(order, axis=0), axis=0).compress(last, axis=0),
-        # Equal evidence shall give equal sums.
-        np.round(np.cumsum(weight.take(order)).compress(last), 6),
+        numbers[:, :2],
+        np.round(total, 6),  # equal evidence shall give equal sums
         (high > least) & (high - low > _NARROWEST * low),
         loops,
         noise,

@@ -120,7 +120,8 @@ def _best(pairs: Persistence, stages: Stages, eligible: BoolArray) -> RadiusChoi
     interval = RadiusInterval(low, high, _numbers(stages.betti[stage]))
     strays = int(pairs.betti_numbers(radius)[0]) - interval.betti[0]
     there = (stages.loops.births <= radius) & (radius < stages.loops.deaths)
-    accidents = int(np.count_nonzero(there & (stages.loops.weights < 0.0)))
+    accidental = stages.loops.by_outliers | (stages.loops.weights < 0.0)
+    accidents = int(np.count_nonzero(there & accidental))
     points = len(pairs.filtration.simplices[0])
     clear = confidence >= _CLEAR and accidents == 0 and points >= _FEW
     after = np.flatnonzero(stages.low == high)
