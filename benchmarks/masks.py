@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -18,9 +18,11 @@ from numpy.typing import NDArray
 
 from benchmarks.mask_fonts import BLOCK_LETTERS, STROKE_LETTERS
 
-__all__ = ["DEVELOPMENT", "FAMILIES", "REPORT", "betti_of", "draw_mask"]
+__all__ = ["DEVELOPMENT", "FAMILIES", "REPORT", "betti_of", "draw_mask", "room"]
 
 SIZE = 512
+# Smallest feature of a mask, in parts of its side.
+_FINEST = 0.02
 
 Grid: TypeAlias = NDArray[np.float64]
 Region: TypeAlias = NDArray[np.bool_]
@@ -30,17 +32,47 @@ Family: TypeAlias = Callable[[np.random.Generator, Grid, Grid], Region]
 def draw_mask(family: str, seed: int, size: int = SIZE) -> tuple[Region, tuple[int, int]]:
     """Return a mask of a family and its Betti numbers ``(b0, b1)``.
 
-    A mask whose corners touch, so that its topology is a matter of taste, or of which
-    less than 1 % or more than 95 % is chosen, is drawn again.
+    A mask is drawn again if its corners touch, so that its topology is a matter of taste;
+    if less than 1 % or more than 95 % is chosen; or if its Betti numbers change when it is
+    thickened or thinned by up to 2 % of the side: then it has a hole, a crack or a bridge
+    that hardly anyone would see.
     """
     rng = np.random.default_rng([seed, *family.encode()])
     centres = (np.arange(size) + 0.5) / size
     x, y = np.meshgrid(centres, centres[::-1])
+    finest = math.ceil(_FINEST * size)
     while True:
         mask = FAMILIES[family](rng, x, y)
         betti = betti_of(mask)
-        if betti is not None and 0.01 < mask.mean() < 0.95:
+        usual = betti is not None and 0.01 < mask.mean() < 0.95
+        if betti is not None and usual and min(room(mask, betti, finest)) == finest:
             return mask, betti
+
+
+def room(mask: Region, betti: tuple[int, int], most: int) -> tuple[int, int]:
+    """Return by how many pixels a mask can be thickened, and thinned, and keep its topology.
+
+    The search ends at `most`.
+    """
+    from scipy import ndimage
+
+    padded = np.pad(mask, most + 1)
+    outwards = ndimage.distance_transform_edt(~padded)
+    inwards = ndimage.distance_transform_edt(padded)
+    steps = range(1, most + 1)
+    thicker = (_components_and_holes(outwards <= k) == betti for k in steps)
+    thinner = (_components_and_holes(inwards > k) == betti for k in steps)
+    return _until_false(thicker), _until_false(thinner)
+
+
+def _until_false(answers: Iterable[bool]) -> int:
+    return sum(1 for _ in itertools.takewhile(bool, answers))
+
+
+def _components_and_holes(mask: Region) -> tuple[int, int]:
+    from scipy import ndimage
+
+    return ndimage.label(mask)[1], ndimage.label(~mask, np.ones((3, 3)))[1] - 1
 
 
 def betti_of(mask: Region) -> tuple[int, int] | None:
