@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
+from alphamesh import export
 from alphamesh._arrays import read_only
 from alphamesh.curves import MeasureCurves, measure_curves
 from alphamesh.filtration import filtration_in_plane
@@ -256,6 +257,27 @@ class AlphaComplex:
         from alphamesh.film import animate
 
         return animate(self.persistence(), path, **options)
+
+    def to_gudhi(self, *, squared: bool = False) -> Any:
+        """Return the complex as a ``gudhi.SimplexTree``, its values radii or their squares.
+
+        Parameters and errors are those of :func:`alphamesh.export.to_gudhi`.
+        """
+        return export.to_gudhi(self._filtration, squared=squared)
+
+    def to_numpy(self) -> dict[str, np.ndarray[Any, Any]]:
+        """Return points, simplices and radii as a plain dict of arrays.
+
+        The names are those of :func:`alphamesh.export.to_numpy`.
+        """
+        return export.to_numpy(self._filtration)
+
+    def save_npz(self, path: str | os.PathLike[str]) -> None:
+        """Write :meth:`to_numpy` into one file, to be read by ``numpy.load``.
+
+        Parameters and errors are those of :func:`alphamesh.export.write_npz`.
+        """
+        export.write_npz(self._filtration, path)
 
     def __repr__(self) -> str:
         vertices, edges, triangles = (f"{len(rows):,}" for rows in self.simplices)

@@ -1,0 +1,120 @@
+"""Filtrations for other libraries: nobody is locked in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+
+import numpy as np
+
+from alphamesh.errors import MissingLibraryError
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Sequence
+
+    from alphamesh._arrays import FloatArray, IntArray
+
+    Array: TypeAlias = np.ndarray[Any, Any]
+
+__all__ = ["to_gudhi", "to_numpy", "write_npz"]
+
+_NAMES = ("vertices", "edges", "triangles", "tetrahedra")
+_RADII = ("vertex_radii", "edge_radii", "triangle_radii", "tetrahedron_radii")
+
+
+class Filtered(Protocol):
+    """A filtration of any dimension."""
+
+    @property
+    def points(self) -> FloatArray:
+        """The cloud."""
+        ...
+
+    @property
+    def representative(self) -> IntArray:
+        """The lowest row with the coordinates of each row."""
+        ...
+
+    @property
+    def simplices(self) -> Sequence[IntArray]:
+        """Rows of the cloud, by dimension."""
+        ...
+
+    @property
+    def radii(self) -> Sequence[FloatArray]:
+        """Values of the simplices, by dimension."""
+        ...
+
+
+def to_gudhi(filtration: Filtered, *, squared: bool = False) -> Any:
+    """Return a filtration as a ``gudhi.SimplexTree``.
+
+    Parameters
+    ----------
+    filtration : Filtration
+    squared : bool, default False
+        Give squared radii, as GUDHI's own alpha complexes do.
+
+    Returns
+    -------
+    gudhi.SimplexTree
+        Its vertices are the rows of the cloud, without duplicates.
+
+    Raises
+    ------
+    MissingLibraryError
+        If gudhi is not installed.
+    """
+    try:
+        from gudhi import SimplexTree
+    except ImportError as missing:
+        raise MissingLibraryError.of("gudhi", "gudhi", "A simplex tree") from missing
+    tree = SimplexTree()
+    for rows, radii in zip(filtration.simplices, filtration.radii, strict=True):
+        with np.errstate(over="ignore", under="ignore"):
+            values = np.square(radii) if squared else np.array(radii)
+        tree.insert_batch(np.array(rows.T, order="C"), values)
+    return tree
+
+
+def to_numpy(filtration: Filtered) -> dict[str, Array]:
+    """Return a filtration as a plain dict of arrays.
+
+    Returns
+    -------
+    dict of str to ndarray
+        ``points`` (n, d) float64; ``representative`` (n,) int32; then for each dimension
+        the simplices, ``vertices`` (m_0, 1), ``edges`` (m_1, 2), ``triangles`` (m_2, 3)
+        int32, rows of the points; and their values ``vertex_radii``, ``edge_radii``,
+        ``triangle_radii`` (m_k,) float64, in the units of the points. The arrays are
+        those of the filtration: read-only, not copied.
+    """
+    arrays: dict[str, Array] = {
+        "points": filtration.points,
+        "representative": filtration.representative,
+    }
+    arrays.update(zip(_NAMES, filtration.simplices, strict=False))
+    arrays.update(zip(_RADII, filtration.radii, strict=False))
+    return arrays
+
+
+def write_npz(filtration: Filtered, path: str | os.PathLike[str]) -> None:
+    """Write :func:`to_numpy` into one file, to be read by ``numpy.load``.
+
+    Parameters
+    ----------
+    filtration : Filtration
+    path : path-like
+        The name is taken as it is; ``.npz`` is usual. The file is written whole or not at
+        all.
+
+    Raises
+    ------
+    FileWriteError
+        If the file cannot be written.
+    """
+    from alphamesh.io._atomic import atomic_path
+
+    with atomic_path(path) as temporary, temporary.open("wb") as file:
+        arrays: Any = to_numpy(filtration)
+        np.savez(file, **arrays)
