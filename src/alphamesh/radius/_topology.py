@@ -27,7 +27,8 @@ _RULE = "topology"
 # A radius a little above the low end of its range: hardly more is filled in, and the
 # range may be a little off.
 _STEP = 1.1
-_WIDE = _STEP**2
+# A range wide enough to be taken for one.
+_WIDE = 1.05
 _TINY = 1e-300
 _CLEAR = 0.75
 _FEW = 10
@@ -152,15 +153,19 @@ def _best(pairs: Persistence, stages: Stages, eligible: BoolArray) -> RadiusChoi
 
 
 def _first_wide(stages: Stages, weight: FloatArray) -> int:
-    """Return the first wide one of the best stages, or the widest of them.
+    """Return the first one of the best stages whose range is wide, or the widest of them.
 
     The same loops and pieces can be there in several ranges, where a loop that hardly lives
-    comes between.
+    comes between. Of these, a smaller radius fills in less.
     """
     first = int(np.argmax(weight))
     same = (stages.betti == stages.betti[first]).all(axis=1)
     best = np.flatnonzero(same & (weight == weight[first]))
-    widths = stages.high.take(best) / np.maximum(stages.low.take(best), _TINY)
+    starts = np.append(True, (stages.betti[1:] != stages.betti[:-1]).any(axis=1))
+    run = (np.cumsum(starts) - 1).take(best)
+    low = stages.low.compress(starts)
+    high = np.append(low[1:], np.inf)
+    widths = high.take(run) / np.maximum(low.take(run), _TINY)
     return int(best[int(np.argmax(np.minimum(widths, _WIDE)))])
 
 
