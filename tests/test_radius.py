@@ -12,6 +12,7 @@ import alphamesh as am
 from alphamesh import radius as rules
 from alphamesh.errors import EmptyCloudError, ParameterError
 from alphamesh.radius import _registry
+from alphamesh.sampling import add_outliers
 from complexes import complexes
 
 RNG = np.random.default_rng(3)
@@ -159,6 +160,147 @@ def test_topology_does_as_it_is_told():
         cx.choose_radius(betti=(1, 2), holes=2)
     with pytest.raises(ParameterError, match="has no option 'hole'; its options: betti"):
         cx.choose_radius(hole=2)
+
+
+def test_topology_follows_what_is_asked_for():
+    cx = am.AlphaComplex(am.demo_cloud("percent", 3000, seed=4))  # two rings and a bar
+    assert cx.choose_radius().betti == (3, 2)
+    for wanted in ({"components": 1}, {"holes": 1}, {"betti": (2, 2)}, {"components": 5}):
+        choice = cx.choose_radius(**wanted)
+        b0, b1 = choice.betti
+        for name, value in wanted.items():
+            assert {"components": b0, "holes": b1, "betti": (b0, b1)}[name] == value
+        assert "asked" in choice.reason
+        low, high = choice.interval
+        assert low <= choice.radius < high
+        for rival in choice.runners_up:  # rivals obey too
+            assert wanted.get("components", rival.betti[0]) == rival.betti[0]
+            assert wanted.get("holes", rival.betti[1]) == rival.betti[1]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"betti": 3}, "two numbers"),
+        ({"betti": (1, 2, 3)}, "two numbers"),
+        ({"components": 0}, "components"),
+        ({"holes": -1}, "holes"),
+        ({"holes": 1.5}, "holes"),
+        ({"min_hole": -1.0}, "min_hole"),
+        ({"min_hole": math.nan}, "min_hole"),
+        ({"min_hole": "big"}, "min_hole"),
+    ],
+)
+def test_topology_refuses_impossible_wishes(options, message):
+    with pytest.raises(ParameterError, match=message):
+        am.AlphaComplex([[0, 0], [1, 0], [0, 1]]).choose_radius(**options)
+
+
+def test_small_holes_need_not_count():
+    cx = am.AlphaComplex(am.demo_cloud("cheese", 6000, seed=3))
+    every = cx.choose_radius()
+    diagram = cx.persistence().diagram(1)
+    alive = (diagram[:, 0] <= every.radius) & (every.radius < diagram[:, 1])
+    deaths = np.sort(diagram[alive, 1])
+    assert len(deaths) == every.betti[1] == 5
+    fewer = cx.choose_radius(min_hole=(deaths[1] + deaths[2]) / 2)
+    assert fewer.betti == (1, 3) and fewer.radius >= deaths[1]
+
+
+def test_outliers_are_strays_and_not_components():
+    points = am.demo_cloud("annulus", 4000, seed=6)
+    far = np.array([[-300.0, -300.0], [900.0, 30.0], [905.0, 30.0], [256.0, 256.0]])
+    choice = am.AlphaComplex(np.concatenate((points, far))).choose_radius()
+    assert choice.betti == (1, 1) and choice.clear
+    assert choice.strays == 3 + (choice.radius < 2.5)
+    assert "3 small pieces stand apart" in choice.reason
+    clean = am.AlphaComplex(points).choose_radius()
+    assert clean.strays == 0 and clean.radius == pytest.approx(choice.radius, rel=0.15)
+
+
+def test_many_outliers_do_not_hide_the_holes():
+    points = add_outliers(am.demo_cloud("cheese", 20000, seed=0), 400, seed=1)
+    choice = am.AlphaComplex(points).choose_radius()
+    assert choice.betti[0] == 1 and 5 <= choice.betti[1] <= 7
+    assert 100 < choice.strays < 400
+
+
+def test_a_small_but_dense_piece_is_a_component():
+    points = np.concatenate(
+        (am.demo_cloud("disc", 5000, seed=1), 600 + 9 * RNG.random((30, 2)))
+    )
+    choice = am.AlphaComplex(points).choose_radius()
+    assert choice.betti == (2, 0) and choice.strays == 0
+
+
+def test_density_may_vary():
+    x = np.linspace(0, 1, 12001)[1:] ** 2  # from dense to sparse, by a factor of 50
+    y = np.random.default_rng(1).random(12000)
+    x = np.random.default_rng(2).choice(x, 12000) + 0.02 * np.random.default_rng(3).random(
+        12000
+    )
+    points = np.column_stack((x, y))
+    hole = np.hypot(points[:, 0] - 0.7, points[:, 1] - 0.5) < 0.12
+    choice = am.AlphaComplex(points[~hole]).choose_radius()
+    assert choice.betti == (1, 1)
+
+
+SCALES = (2.0**-300, 3.0, 2.0**200)
+
+
+@pytest.mark.parametrize("name", ["eight", "islands", "disc"])
+@pytest.mark.parametrize("scale", SCALES)
+def test_topology_knows_no_units(name, scale):
+    points = am.demo_cloud(name, 800, seed=9)
+    one = am.AlphaComplex(points).choose_radius()
+    other = am.AlphaComplex(points * scale).choose_radius()
+    assert other.radius == pytest.approx(scale * one.radius, rel=1e-9)
+    assert (other.betti, other.strays, other.clear) == (one.betti, one.strays, one.clear)
+    assert other.confidence == pytest.approx(one.confidence, abs=1e-6)
+
+
+@given(complexes().filter(lambda cx: len(cx.points)))
+def test_topology_does_not_depend_on_the_order_of_points(cx):
+    order = np.random.default_rng(len(cx.points)).permutation(len(cx.points))
+    one, other = cx.choose_radius(), am.AlphaComplex(cx.points[order]).choose_radius()
+    assert (other.radius, other.betti, other.strays) == (one.radius, one.betti, one.strays)
+
+
+def test_topology_does_not_depend_on_the_order_of_many_points():
+    points = add_outliers(am.demo_cloud("cheese", 3000, seed=5), 40, seed=5)
+    one = am.AlphaComplex(points).choose_radius()
+    for seed in range(3):
+        order = np.random.default_rng(seed).permutation(len(points))
+        assert am.AlphaComplex(points[order]).choose_radius() == one
+
+
+@pytest.mark.parametrize(
+    ("points", "betti"),
+    [
+        ([[0, 0], [1, 0]], None),
+        ([[k, 0] for k in range(30)], (1, 0)),
+        ([[k, 0] for k in (*range(30), *range(90, 120))], (2, 0)),
+        ([[i, j] for i in range(12) for j in range(12)], (1, 0)),
+        ([[i, j] for i in range(30) for j in range(30) if max(i, j) > 9], (1, 0)),
+        (
+            [[i, j] for i in range(30) for j in range(30) if max(abs(i - 15), abs(j - 15)) > 6],
+            (1, 1),
+        ),
+        ([[math.cos(t / 9), math.sin(t / 9)] for t in range(57)], (1, 1)),
+    ],
+)  # fmt: skip
+def test_topology_of_regular_clouds(points, betti):
+    choice = am.AlphaComplex(points).choose_radius()
+    assert math.isfinite(choice.radius) and choice.strays == 0
+    if betti is None:
+        assert not choice.clear and choice.runners_up[0].betti == (2, 0)
+    else:
+        assert choice.betti == betti
+
+
+def test_few_points_give_no_clear_answer():
+    choice = am.AlphaComplex(np.random.default_rng(4).random((6, 2))).choose_radius()
+    assert not choice.clear and "no clear answer" in choice.reason
 
 
 def test_topology_says_when_the_cloud_gives_no_clear_answer():

@@ -79,6 +79,11 @@ def _range(interval: RadiusInterval) -> str:
 def _noise_sentence(findings: Findings) -> str:
     if findings.on_a_line:
         return "The gaps within these are no longer than chance leaves between random points."
+    if findings.noise > findings.interval.low:
+        return (
+            "Smaller radii leave more gaps, no larger than chance leaves between points "
+            "strewn at random as densely as these."
+        )
     return (
         "Smaller radii leave gaps that mean nothing: points strewn at random, as densely as "
         f"these, leave empty discs of a radius up to about {findings.noise:.3g}."
@@ -89,9 +94,12 @@ def _holes_sentence(findings: Findings) -> str:
     holes = findings.interval.betti[1]
     if holes == 0 or math.isinf(findings.room):
         return ""
+    room = counted(max(round(findings.room), 1), "point")
+    if not findings.clear:
+        which = "The hole" if holes == 1 else f"The smallest of the {holes:,} holes"
+        return f"{which} would have room for about {room}."
     which = "The hole is" if holes == 1 else f"The {holes:,} holes are"
     smallest = "it" if holes == 1 else "the smallest"
-    room = counted(max(round(findings.room), 1), "point")
     return f"{which} too large for that: {smallest} would have room for about {room}."
 
 
