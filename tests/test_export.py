@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import sys
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from hypothesis import given
 
 import alphamesh as am
-from alphamesh import export
 from alphamesh.errors import FileWriteError, MissingLibraryError
 from complexes import complexes
 
@@ -57,21 +55,16 @@ def test_gudhi_finds_the_pairs_that_we_find():
 
 
 def test_simplices_of_space_are_exported_too():
-    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-    edges = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]], dtype=np.int32)
-    triangles = np.array([[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]], dtype=np.int32)
-    solid = SimpleNamespace(
-        points=corners,
-        representative=np.arange(4, dtype=np.int32),
-        simplices=(np.arange(4, dtype=np.int32)[:, None], edges, triangles, [[0, 1, 2, 3]]),
-        radii=(np.zeros(4), np.full(6, 0.5), np.full(4, 0.75), np.full(1, 0.9)),
-    )
-    solid.simplices = tuple(np.asarray(rows, dtype=np.int32) for rows in solid.simplices)
-    tree = export.to_gudhi(solid)
-    assert tree.num_simplices() == 15 and tree.filtration([0, 1, 2, 3]) == 0.9
-    arrays = export.to_numpy(solid)
-    assert arrays["tetrahedra"].tolist() == [[0, 1, 2, 3]]
-    assert arrays["tetrahedron_radii"].tolist() == [0.9]
+    cx = am.AlphaComplex(np.random.default_rng(3).random((40, 3)))
+    tree = cx.to_gudhi(squared=True)
+    theirs = gudhi.AlphaComplex(points=cx.points, precision="exact").create_simplex_tree()
+    mine = {tuple(simplex): value for simplex, value in tree.get_filtration()}
+    yours = {tuple(simplex): value for simplex, value in theirs.get_filtration()}
+    assert mine.keys() == yours.keys() and tree.dimension() == 3
+    assert np.allclose([mine[k] for k in yours], list(yours.values()), rtol=1e-9, atol=1e-15)
+    arrays = cx.to_numpy()
+    assert arrays["tetrahedra"] is cx.simplices[3]
+    assert arrays["tetrahedron_radii"] is cx.radii[3]
 
 
 def test_a_missing_gudhi_is_told(monkeypatch):

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from alphamesh.complex import AlphaComplex
 from alphamesh.errors import MissingLibraryError, ParameterError
-from alphamesh.filtration import filtration
-from alphamesh.persistence import persistence
 
 try:
     from joblib import Parallel, delayed
@@ -95,7 +94,8 @@ class PersistenceTransformer(TransformerMixin, BaseEstimator):  # type: ignore[m
 
         Parameters
         ----------
-        X : sequence of (n_i, 2) array-like, or (clouds, n, 2) array
+        X : sequence of (n_i, d) array-like, or (clouds, n, d) array
+            Whatever :class:`~alphamesh.AlphaComplex` takes.
 
         Returns
         -------
@@ -118,7 +118,7 @@ class PersistenceTransformer(TransformerMixin, BaseEstimator):  # type: ignore[m
 
     def _diagrams(self, cloud: ArrayLike, numbers: Sequence[int]) -> list[FloatArray]:
         threads = None if self.n_jobs in (None, 1) else 1
-        pairs = persistence(filtration(cloud, threads=threads))
+        pairs = AlphaComplex(cloud, threads=threads).persistence()
         found = [pairs.diagram(k, squared=self.squared) for k in numbers]
         return found if self.essential else [rows[np.isfinite(rows[:, 1])] for rows in found]
 
