@@ -298,6 +298,23 @@ def test_topology_of_regular_clouds(points, betti):
         assert choice.betti == betti
 
 
+def test_the_reason_names_the_shape_its_range_and_what_ends_it():
+    choice = am.AlphaComplex(am.demo_cloud("annulus", 2000, seed=2)).choose_radius()
+    low, high = choice.interval
+    assert choice.reason.startswith(
+        f"From radius {low:.4g} to {high:.4g} the 2,000 points form 1 component and 1 hole. "
+    )
+    assert "The hole is too large for chance: it would have room for about 7" in choice.reason
+    assert choice.reason.endswith(f"At radius {high:.4g} a hole is filled.")
+    islands = am.AlphaComplex(am.demo_cloud("percent", 2000, seed=2)).choose_radius().reason
+    assert "form 3 components and 2 holes" in islands and "apart are joined" in islands
+    solid = am.AlphaComplex(am.demo_cloud("disc", 500, seed=2)).choose_radius().reason
+    assert " on the 500 points form 1 component and no holes. " in solid
+    assert "At radius" not in solid and "room" not in solid
+    line = am.AlphaComplex([[k, k] for k in (*range(30), *range(90, 120))]).choose_radius()
+    assert line.reason.startswith("The points lie on one line. From radius 0.7071 to 43.13")
+
+
 def test_few_points_give_no_clear_answer():
     choice = am.AlphaComplex(np.random.default_rng(4).random((6, 2))).choose_radius()
     assert not choice.clear and "no clear answer" in choice.reason

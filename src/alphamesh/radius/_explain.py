@@ -72,8 +72,11 @@ def _shape_sentence(findings: Findings) -> str:
 def _range(interval: RadiusInterval) -> str:
     if math.isinf(interval.high):
         return f"From radius {interval.low:.4g} on"
-    low, high = apart(interval.low, interval.high)
-    return f"From radius {low} to {high}"
+    return f"From radius {apart(interval.low, interval.high)[0]} to {_end(interval)}"
+
+
+def _end(interval: RadiusInterval) -> str:
+    return apart(interval.low, interval.high)[1]
 
 
 def _noise_sentence(findings: Findings) -> str:
@@ -81,8 +84,8 @@ def _noise_sentence(findings: Findings) -> str:
         return "The gaps within these are no longer than chance leaves between random points."
     if findings.noise > findings.interval.low:
         return (
-            "Smaller radii leave more gaps, no larger than chance leaves between points "
-            "strewn at random as densely as these."
+            "Smaller radii leave gaps that mean nothing: they are no larger than chance "
+            "leaves between points strewn at random, as densely as these."
         )
     return (
         "Smaller radii leave gaps that mean nothing: points strewn at random, as densely as "
@@ -100,7 +103,7 @@ def _holes_sentence(findings: Findings) -> str:
         return f"{which} would have room for about {room}."
     which = "The hole is" if holes == 1 else f"The {holes:,} holes are"
     smallest = "it" if holes == 1 else "the smallest"
-    return f"{which} too large for that: {smallest} would have room for about {room}."
+    return f"{which} too large for chance: {smallest} would have room for about {room}."
 
 
 def _end_sentence(findings: Findings) -> str:
@@ -108,14 +111,14 @@ def _end_sentence(findings: Findings) -> str:
         return ""
     components, holes = findings.next_change
     if components < 0:
-        what = "components that stand apart are joined"
+        what = "components that stood apart are joined"
     elif holes < 0:
         what = "a hole is filled"
     elif holes > 0:
         what = "a bay of the outline is closed off as if it were a hole"
     else:
         what = "outliers form a piece of their own"
-    return f"Beyond that, {what}."
+    return f"At radius {_end(findings.interval)} {what}."
 
 
 def _strays_sentence(findings: Findings) -> str:

@@ -125,7 +125,7 @@ def _best(pairs: Persistence, stages: Stages, eligible: BoolArray) -> RadiusChoi
     accidents = int(np.count_nonzero(there & accidental))
     points = len(pairs.filtration.simplices[0])
     clear = confidence >= _CLEAR and accidents == 0 and points >= _FEW
-    after = np.flatnonzero(stages.low == high)
+    after = np.flatnonzero((stages.low >= high) & stages.allowed)
     findings = Findings(
         points,
         pairs.filtration.dimension == 1,
