@@ -125,6 +125,7 @@ def report(outcomes: Sequence[Outcome], half: str) -> str:
     families = sorted({o.family for o in outcomes})
     sizes = sorted({o.n for o in outcomes})
     large = [o for o in outcomes if o.n >= 1_000] or list(outcomes)
+    together = "≥ 1,000" if sizes[-1] >= 1_000 else "all"
     per_cell = len(outcomes) // max(len(sizes) * len(KINDS) * len(families), 1)
     intro = (
         f"{len(outcomes):,} clouds: {per_cell} masks of each family of the half "
@@ -137,7 +138,7 @@ def report(outcomes: Sequence[Outcome], half: str) -> str:
     return "\n\n".join(
         (
             intro,
-            _table([(kind, "", _of(large, kind=kind)) for kind in KINDS], least(sizes)),
+            _table([(kind, together, _of(large, kind=kind)) for kind in KINDS]),
             _table(
                 [
                     (kind, f"{n:,}", _of(outcomes, kind=kind, n=n))
@@ -150,18 +151,13 @@ def report(outcomes: Sequence[Outcome], half: str) -> str:
     )
 
 
-def least(sizes: Sequence[int]) -> str:
-    """Return the head of the column of sizes in the summary."""
-    return "n ≥ 1,000" if sizes[-1] >= 1_000 else "all n"
-
-
 def _of(outcomes: Iterable[Outcome], *, kind: str, n: int | None = None) -> list[Outcome]:
     return [o for o in outcomes if o.kind == kind and n in (None, o.n)]
 
 
-def _table(rows: Iterable[tuple[str, str, list[Outcome]]], sizes: str = "n") -> str:
+def _table(rows: Iterable[tuple[str, str, list[Outcome]]]) -> str:
     rules = (_TOPOLOGY, *RIVALS)
-    head = ["cloud", sizes, "clouds", "possible", *(f"`{rule}`" for rule in rules)]
+    head = ["cloud", "n", "clouds", "possible", *(f"`{rule}`" for rule in rules)]
     lines = [[*head, "resolved", "of these"], ["---", *["--:"] * (len(head) + 1)]]
     for kind, n, outcomes in rows:
         possible = [o for o in outcomes if o.possible]

@@ -15,7 +15,7 @@ from alphamesh.errors import DimensionError, ParameterError
 from alphamesh.filtration import Filtration
 from alphamesh.filtration3d import Filtration3D
 from alphamesh.loops import shortest_loops
-from alphamesh.voids import Shells, void_shells
+from alphamesh.voids import VoidShells, void_shells
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -283,7 +283,7 @@ class Persistence(Record):
         """
         return shortest_loops(self.filtration, self.pairs[1], classes)
 
-    def voids(self, classes: ArrayLike) -> Shells:
+    def voids(self, classes: ArrayLike) -> VoidShells:
         """Return the triangles around voids at their birth: representative cycles.
 
         Parameters
@@ -293,7 +293,7 @@ class Persistence(Record):
 
         Returns
         -------
-        Shells
+        VoidShells
             For each class the border of the region that the void covers when it is born:
             closed surfaces, one around it and others around what lies within it.
 

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from alphamesh._arrays import CountArray, IntArray
     from alphamesh.filtration3d import Filtration3D
 
-__all__ = ["Shells", "void_shells"]
+__all__ = ["VoidShells", "void_shells"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Shells(Record):
+class VoidShells(Record):
     """The triangles around voids, flat: those of one void are a slice of `triangles`.
 
     Iterating gives the triangles around each void as an ``(m, 3)`` int32 array.
@@ -55,10 +55,10 @@ class Shells(Record):
 
     def __repr__(self) -> str:
         voids = f"{len(self):,} void{'s' * (len(self) != 1)}"
-        return f"<Shells: {len(self.triangles):,} triangles around {voids}>"
+        return f"<VoidShells: {len(self.triangles):,} triangles around {voids}>"
 
 
-def void_shells(filtration: Filtration3D, voids: IntArray, classes: ArrayLike) -> Shells:
+def void_shells(filtration: Filtration3D, voids: IntArray, classes: ArrayLike) -> VoidShells:
     """Return the triangles around voids at their birth.
 
     Parameters
@@ -71,7 +71,7 @@ def void_shells(filtration: Filtration3D, voids: IntArray, classes: ArrayLike) -
 
     Returns
     -------
-    Shells
+    VoidShells
         In the order of `classes`.
 
     Raises
@@ -82,7 +82,7 @@ def void_shells(filtration: Filtration3D, voids: IntArray, classes: ArrayLike) -
     wanted = checked_classes(classes, len(voids), 2)
     shells = [_shell(filtration, *voids[number].tolist()) for number in wanted.tolist()]
     lengths = [len(shell) for shell in shells]
-    return Shells(
+    return VoidShells(
         read_only(np.concatenate(([0], np.cumsum(lengths, dtype=np.int64)))),
         read_only(np.concatenate([np.empty((0, 3), dtype=np.int32), *shells])),
         read_only(wanted.astype(np.int32)),

@@ -142,7 +142,7 @@ def dataset(
     """
     files = _files(Path(path))
     described: list[Chunk] = []
-    wanted = wanted_columns(columns, dimension)
+    wanted = wanted_columns(columns, dimension)._replace(space=False)
     digest = hashlib.sha256(repr(wanted).encode())
     row = 0
     for file in files:
