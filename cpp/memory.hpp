@@ -12,6 +12,15 @@ namespace alphamesh {
 void* allocate(std::size_t bytes);
 void release(void* p, std::size_t bytes) noexcept;
 
+// Asks for a cache line that will be read soon.
+inline void prefetch(const void* p) {
+#if defined(__GNUC__)
+  __builtin_prefetch(p);
+#else
+  (void)p;
+#endif
+}
+
 // Touching fresh pages costs a fifth to a third of a run on large clouds. While an object
 // of this class lives, large blocks that are released are kept and given out again, in
 // parts if need be; with the last one they go back to the system.
