@@ -164,6 +164,27 @@ def test_threads_agree_on_a_large_cloud():
         assert np.array_equal(one[name], three[name])
 
 
+def test_bare_triangulation(cloud):
+    dimension, representative, tetrahedra, neighbors = _core.delaunay3(cloud, 1, None)
+    assert (dimension, representative) == (3, None)
+    result = alpha3(cloud)
+    assert np.array_equal(tetrahedra, result["tetrahedra"])
+    facets = {}
+    for row, pair in zip(result["triangles"], result["triangle_tetrahedra"], strict=True):
+        facets[tuple(row.tolist())] = set(pair.tolist())
+    for t, (row, across) in enumerate(
+        zip(tetrahedra.tolist(), neighbors.tolist(), strict=True)
+    ):
+        for k in range(4):
+            assert facets[tuple(row[:k] + row[k + 1 :])] == {t, across[k]}
+
+
+def test_bare_triangulation_of_a_flat_cloud():
+    dimension, representative, tetrahedra, neighbors = _core.delaunay3(grid(3)[:9], 1, None)
+    assert (dimension, representative) == (2, None)
+    assert tetrahedra.shape == neighbors.shape == (0, 4)
+
+
 def test_duplicates_are_merged():
     points = np.concatenate([grid(3), grid(3)[::-1]])
     result = alpha3(points)
