@@ -169,12 +169,11 @@ class Collector {
 
 }  // namespace
 
-Edges3 edges3(const SpatialOrder3& order, Compact3&& compact, Facets3&& given,
+Edges3 edges3(const SpatialOrder3& order, Compact3& mesh, Facets3&& given,
               const Buffer<double>& triangle_radii, Job& job) {
   std::vector<Found> found;
-  const Parts parts(compact.count, job, 1024);
+  const Parts parts(mesh.count, job, 1024);
   {
-    const Compact3 mesh = std::move(compact);
     const Facets3 facets = std::move(given);
     Collector collector(order, mesh, facets, triangle_radii);
     for (std::size_t part = 0; part < parts.count(); ++part) {
@@ -184,6 +183,7 @@ Edges3 edges3(const SpatialOrder3& order, Compact3&& compact, Facets3&& given,
       collector.collect(parts.begin(part), parts.end(part), job, found[part]);
       job.advance(0.2 / static_cast<double>(parts.count()));
     });
+    mesh.neighbor = Buffer<Id>();
   }
   std::vector<std::size_t> first(parts.count() + 1, 0);
   for (std::size_t i = 0; i < found.size(); ++i) first[i + 1] = first[i] + found[i].count();
