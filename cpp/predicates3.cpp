@@ -17,7 +17,8 @@ Vector3<Pair> pair(const Vector3<Dd>& v) { return {Pair(v.x), Pair(v.y), Pair(v.
 
 Vector3<Big> big(const Vector3<Dd>& v) { return {Big(v.x), Big(v.y), Big(v.z)}; }
 
-double length(const Vector3<Dd>& v) {
+template <class R>
+double length(const Vector3<R>& v) {
   return std::sqrt(v.x.h * v.x.h + v.y.h * v.y.h + v.z.h * v.z.h);
 }
 
@@ -115,13 +116,6 @@ bool in_sphere_perturbed(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e,
   return false;
 }
 
-double volume_accurate(Point3 a, Point3 b, Point3 c, Point3 d) {
-  const Vector3<Dd> u = difference(b, a), v = difference(c, a), w = difference(d, a);
-  const Dd det = dot(cross(u, v), w);
-  if (std::fabs(det.h) > 0x1p-46 * length(u) * length(v) * length(w)) return det.h + det.l;
-  return dot(cross(big(u), big(v)), big(w)).estimate();
-}
-
 namespace {
 
 double component(Dd plain, double scale, const Big& x, const Big& y, const Big& z, const Big& w) {
@@ -141,9 +135,9 @@ Vector3<double> normal_accurate(Point3 a, Point3 b, Point3 c) {
 
 Vector3<double> circumcentre_accurate(Point3 p, Point3 a, Point3 b, Point3 c, double* w) {
   const Vector3<Dd> u = difference(a, p), v = difference(b, p), t = difference(c, p);
-  const Circumcentre<Dd> plain(u, v, t);
+  const Circumcentre<Pair> plain(pair(u), pair(v), pair(t));
   const double lu = length(u), lv = length(v), lt = length(t), product = lu * lv * lt;
-  const Vector3<Dd>& n = plain.numerator;
+  const Vector3<Pair>& n = plain.numerator;
   if (std::fabs(plain.volume.h) > 0x1p-46 * product &&
       length(n) > 0x1p-46 * product * (lu + lv + lt)) {
     *w = plain.volume.h + plain.volume.l;

@@ -36,12 +36,8 @@ struct Store {
   void reserve(std::size_t slots) {
     if (slots <= slot.size()) return;
     if (slots >= std::size_t{1} << 29) throw std::bad_alloc();
-    Buffer<Tetrahedron> more(slots);
-    Buffer<Sphere> spheres(slots);
-    std::copy(slot.data(), slot.data() + used.load(), more.begin());
-    std::copy(sphere.data(), sphere.data() + used.load(), spheres.begin());
-    slot = std::move(more);
-    sphere = std::move(spheres);
+    slot.grow(slots);
+    sphere.grow(slots);
   }
 };
 
