@@ -1,14 +1,12 @@
-"""Nasty small clouds in space, each checked exactly.
-
-``python tests/fuzz_space.py --clouds 100000`` checks so many of them.
+"""Nasty small clouds in space, and a check of every simplex and value by the definition.
 
 Coordinates are integers times a power of two, so that whole numbers and fractions decide
-everything: orientation, volume, ties, values. Nothing here is shared with the core.
+everything: orientation, volume, ties, values. Nothing here is shared with the core, nor with
+`alphamesh.check`.
 """
 
 from __future__ import annotations
 
-import argparse
 from fractions import Fraction
 from itertools import combinations
 
@@ -194,20 +192,3 @@ def check_cloud(integers, exponent=0):
     for row, square in expected_squares(points, list(squares)).items():
         error = relative_error(squares[row], square * unit**2)
         assert error < BOUND, f"value of {row} is off by {error}"
-
-
-def main():
-    parser = argparse.ArgumentParser(description="Check many nasty clouds exactly.")
-    parser.add_argument("--clouds", type=int, default=100_000)
-    parser.add_argument("--first", type=int, default=0, help="the first seed")
-    options = parser.parse_args()
-    for seed in range(options.first, options.first + options.clouds):
-        try:
-            check_cloud(*nasty_cloud(seed))
-        except AssertionError as error:
-            raise SystemExit(f"seed {seed}: {error}") from error
-    print(f"{options.clouds:,} clouds: all exact")
-
-
-if __name__ == "__main__":
-    main()

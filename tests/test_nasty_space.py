@@ -1,4 +1,4 @@
-"""A sample of the nasty clouds of `fuzz_space`, which can check any number of them."""
+"""Clouds in space that are meant to break things, each checked by the definition."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fuzz_space import KINDS, check_cloud, check_tetrahedra, nasty_cloud
+from nasty_space import KINDS, check_cloud, check_tetrahedra, nasty_cloud
 from space_core import alpha3
 
 
