@@ -4,12 +4,23 @@ from __future__ import annotations
 
 import importlib
 import importlib.metadata
+import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from benchmarks.clouds import Points
 
-__all__ = ["FILTRATION", "JOBS", "OURS", "TRIANGULATION", "Job", "Run", "available", "version"]
+__all__ = [
+    "FILTRATION",
+    "JOBS",
+    "OURS",
+    "TRIANGULATION",
+    "Job",
+    "Run",
+    "available",
+    "space",
+    "version",
+]
 
 Run = Callable[[Points], object]
 
@@ -55,6 +66,17 @@ def _delaunay(threads: int | None) -> Callable[[], Run]:
     def load() -> Run:
         delaunay = importlib.import_module("alphamesh.delaunay").delaunay
         return lambda points: delaunay(points, threads=threads)
+
+    return load
+
+
+def space(what: str, threads: int | None) -> Callable[[], Run]:
+    """Return what loads a job in space: "filtration" or "delaunay", of the compiled core."""
+
+    def load() -> Run:
+        core = importlib.import_module("alphamesh._kernels._core")
+        call = {"filtration": core.alpha3, "delaunay": core.delaunay3}[what]
+        return lambda points: call(points, threads or os.cpu_count() or 1, None)
 
     return load
 

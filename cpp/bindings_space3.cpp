@@ -21,6 +21,14 @@ using Points3 = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::de
 template <std::size_t K>
 using Tuples3 = nb::ndarray<const double, nb::shape<-1, K, 3>, nb::c_contig, nb::device::cpu>;
 
+void check_size(std::size_t n) {
+  if (n > kMaxPoints3) throw TooManyPoints("at most 2^26 points");
+}
+
+nb::object representative_of(SpatialOrder3& order) {
+  return order.representative.size() == 0 ? nb::none() : array(std::move(order.representative));
+}
+
 Filtration3 flat_filtration(const SpatialOrder3& order, const std::vector<std::int32_t>& span,
                             Job& job) {
   SpatialOrder<Sheet> sheet = sheet_of(order, span, job);
@@ -40,7 +48,7 @@ Filtration3 flat_filtration(const SpatialOrder3& order, const std::vector<std::i
 // triangles without tetrahedra, on a line the edges.
 nb::tuple alpha3(const Points3& points, int threads, const nb::object& progress) {
   const std::size_t n = points.shape(0);
-  if (n > kMaxPoints3) throw TooManyPoints("at most 2^26 points");
+  check_size(n);
   Job job(useful_threads(threads, n));
   SpatialOrder3 order;
   Filtration3 f;
@@ -57,13 +65,32 @@ nb::tuple alpha3(const Points3& points, int threads, const nb::object& progress)
       f = flat_filtration(order, span, job);
     }
   });
-  nb::object representative = nb::none();
-  if (order.representative.size() != 0) representative = array(std::move(order.representative));
-  return nb::make_tuple(dimension, representative, array(std::move(f.tetrahedra), 4),
+  return nb::make_tuple(dimension, representative_of(order), array(std::move(f.tetrahedra), 4),
                         array(std::move(f.tetrahedron_radii)), array(std::move(f.triangles), 3),
                         array(std::move(f.triangle_radii)),
                         array(std::move(f.triangle_tetrahedra), 2), array(std::move(f.edges), 2),
                         array(std::move(f.edge_radii)));
+}
+
+// The dimension of the cloud, and its tetrahedra and their neighbours opposite to each
+// vertex, -1 beyond the hull; empty arrays unless it is 3.
+nb::tuple delaunay3_py(const Points3& points, int threads, const nb::object& progress) {
+  const std::size_t n = points.shape(0);
+  check_size(n);
+  Job job(useful_threads(threads, n));
+  SpatialOrder3 order;
+  Compact3 compact;
+  int dimension = -1;
+  run_watched(job, n, progress, [&] {
+    order = spatial_order3(points.data(), n, job);
+    const std::vector<std::int32_t> span = spanning_points(order, job);
+    dimension = static_cast<int>(span.size()) - 1;
+    if (dimension != 3) return;
+    compact = compact3(order, delaunay3(order, span, job), job);
+    write_rows(order, compact, job);
+  });
+  return nb::make_tuple(dimension, representative_of(order), array(std::move(compact.vertex), 4),
+                        array(std::move(compact.neighbor), 4));
 }
 
 // Calls sign() on each tuple of K points, brought into the range of exact products.
@@ -104,6 +131,8 @@ nb::object insphere3_py(const Tuples3<5>& tuples, bool perturb) {
 
 void bind_space3(nb::module_& m) {
   m.def("alpha3", &alpha3, nb::arg("points"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("delaunay3", &delaunay3_py, nb::arg("points"), nb::arg("threads"),
+        nb::arg("progress").none());
   m.def("orient3", &orient3_py, nb::arg("points"));
   m.def("insphere3", &insphere3_py, nb::arg("points"), nb::arg("perturb"));
 }

@@ -12,10 +12,16 @@ namespace {
 
 using Id = std::int32_t;
 
-// One bit for each edge of a tetrahedron, by the positions of its ends, and by the other two.
-constexpr std::uint8_t kEdgeBit[4][4] = {
-    {0, 1, 2, 4}, {1, 0, 8, 16}, {2, 8, 0, 32}, {4, 16, 32, 0}};
+// One bit for each edge of a tetrahedron, by the positions that it has not.
 constexpr std::uint8_t kAcross[4][4] = {{0, 32, 16, 8}, {32, 0, 4, 2}, {16, 4, 0, 1}, {8, 2, 1, 0}};
+// By that bit: the positions of its ends, and the other two.
+struct Ends {
+  std::int8_t i, j, leave, keep;
+};
+constexpr Ends kEnds[33] = {
+    {}, {0, 1, 2, 3}, {0, 2, 1, 3}, {}, {0, 3, 1, 2}, {}, {}, {}, {1, 2, 0, 3}, {}, {}, {},
+    {}, {},           {},           {}, {1, 3, 0, 2}, {}, {}, {}, {},           {}, {}, {},
+    {}, {},           {},           {}, {},           {}, {}, {}, {2, 3, 0, 1}};
 
 struct Edge {
   Id ends[2];
@@ -135,12 +141,9 @@ class Collector {
     Ring ring(mesh_, facets_, done_.data(), lo, hi);
     for (std::size_t t = lo; t < hi; ++t) {
       if (((t - lo) & 0x3fff) == 0) job.poll();
-      for (int i = 0; i < 3; ++i) {
-        for (int j = i + 1; j < 4; ++j) {
-          if ((done_[t] & kEdgeBit[i][j]) != 0) continue;
-          const int leave = i == 0 ? (j == 1 ? 2 : 1) : 0, keep = 6 - i - j - leave;
-          if (ring.go(t, leave, keep)) found.push(edge(t, i, j, ring));
-        }
+      for (unsigned left = ~unsigned{done_[t]} & 63u; left != 0; left &= left - 1) {
+        const Ends& e = kEnds[left & (0u - left)];
+        if (ring.go(t, e.leave, e.keep)) found.push(edge(t, e.i, e.j, ring));
       }
     }
   }
@@ -166,12 +169,11 @@ class Collector {
 
 }  // namespace
 
-Edges3 edges3(const SpatialOrder3& order, Compact3&& compact, Facets3&& given,
+Edges3 edges3(const SpatialOrder3& order, Compact3& mesh, Facets3&& given,
               const Buffer<double>& triangle_radii, Job& job) {
   std::vector<Found> found;
-  const Parts parts(compact.count, job, 1024);
+  const Parts parts(mesh.count, job, 1024);
   {
-    const Compact3 mesh = std::move(compact);
     const Facets3 facets = std::move(given);
     Collector collector(order, mesh, facets, triangle_radii);
     for (std::size_t part = 0; part < parts.count(); ++part) {
@@ -181,6 +183,7 @@ Edges3 edges3(const SpatialOrder3& order, Compact3&& compact, Facets3&& given,
       collector.collect(parts.begin(part), parts.end(part), job, found[part]);
       job.advance(0.2 / static_cast<double>(parts.count()));
     });
+    mesh.neighbor = Buffer<Id>();
   }
   std::vector<std::size_t> first(parts.count() + 1, 0);
   for (std::size_t i = 0; i < found.size(); ++i) first[i + 1] = first[i] + found[i].count();

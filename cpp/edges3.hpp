@@ -29,8 +29,8 @@ struct Edges3 {
   Buffer<double> radii;       // (E,)
 };
 
-// Uses up the mesh and the facets, so that their memory can hold the result.
-Edges3 edges3(const SpatialOrder3& order, Compact3&& mesh, Facets3&& facets,
+// Uses up the neighbours and the facets, so that their memory can hold the result.
+Edges3 edges3(const SpatialOrder3& order, Compact3& mesh, Facets3&& facets,
               const Buffer<double>& triangle_radii, Job& job);
 
 }  // namespace alphamesh

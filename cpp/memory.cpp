@@ -1,5 +1,7 @@
 #include "memory.hpp"
 
+#include <cstring>
+
 #if defined(__linux__)
 #include <sys/mman.h>
 
@@ -9,6 +11,16 @@
 #endif
 
 namespace alphamesh {
+namespace {
+
+void* copied(void* p, std::size_t bytes, std::size_t more) {
+  void* const target = allocate(more);
+  std::memcpy(target, p, bytes);
+  release(p, bytes);
+  return target;
+}
+
+}  // namespace
 
 #if defined(__linux__)
 namespace {
@@ -119,12 +131,24 @@ void release(void* p, std::size_t bytes) noexcept {
   unmap(block.begin, block.bytes);
 }
 
+void* enlarge(void* p, std::size_t bytes, std::size_t more) {
+  if (bytes < kLarge) return copied(p, bytes, more);
+  const std::size_t pages = whole_pages(bytes);
+  if (whole_pages(more) <= pages) return p;
+  void* const target = map(whole_pages(more));  // aligned, so that huge pages move whole
+  if (mremap(p, pages, pages, MREMAP_MAYMOVE | MREMAP_FIXED, target) != MAP_FAILED) return target;
+  std::memcpy(target, p, bytes);
+  release(p, bytes);
+  return target;
+}
+
 #else
 
 Recycling::Recycling() noexcept = default;
 Recycling::~Recycling() = default;
 void* allocate(std::size_t bytes) { return ::operator new(bytes, std::align_val_t(64)); }
 void release(void* p, std::size_t) noexcept { ::operator delete(p, std::align_val_t(64)); }
+void* enlarge(void* p, std::size_t bytes, std::size_t more) { return copied(p, bytes, more); }
 
 #endif
 

@@ -11,6 +11,18 @@ namespace alphamesh {
 // Memory of at least one byte; release() takes the same number of bytes.
 void* allocate(std::size_t bytes);
 void release(void* p, std::size_t bytes) noexcept;
+// Takes `bytes` of memory, gives back `more` that begin with the same; without a copy where
+// the system can.
+void* enlarge(void* p, std::size_t bytes, std::size_t more);
+
+// Asks for a cache line that will be read soon.
+inline void prefetch(const void* p) {
+#if defined(__GNUC__)
+  __builtin_prefetch(p);
+#else
+  (void)p;
+#endif
+}
 
 // Asks for the memory at p ahead of its use; changes no result.
 inline void prefetch(const void* p) {
@@ -52,6 +64,13 @@ class Buffer {
   Buffer& operator=(const Buffer&) = delete;
   ~Buffer() {
     if (data_ != nullptr) release(data_, size_ * sizeof(T));
+  }
+
+  // What is there already stays.
+  void grow(std::size_t n) {
+    data_ = static_cast<T*>(data_ == nullptr ? allocate(n * sizeof(T))
+                                             : enlarge(data_, size_ * sizeof(T), n * sizeof(T)));
+    size_ = n;
   }
 
   T* data() { return data_; }

@@ -1,7 +1,6 @@
 #include "output3.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -20,15 +19,6 @@ void settle(Id& a, Id& b) {
   b = high;
 }
 
-void write_tetrahedron(const Id* row, const Id* v, Id* out) {
-  for (int k = 0; k < 4; ++k) out[k] = row[v[k]];
-  settle(out[0], out[1]);
-  settle(out[2], out[3]);
-  settle(out[0], out[2]);
-  settle(out[1], out[3]);
-  settle(out[1], out[2]);
-}
-
 void write_triangle(const Id* row, const Id* v, Id* out) {
   for (int k = 0; k < 3; ++k) out[k] = row[v[k]];
   settle(out[0], out[1]);
@@ -36,7 +26,23 @@ void write_triangle(const Id* row, const Id* v, Id* out) {
   settle(out[0], out[1]);
 }
 
-// Fills the arrays of tetrahedra and triangles; a part is a range of tetrahedra.
+// Turns vertices into rows of the input's numbers, ascending, in place.
+void sort_rows(const SpatialOrder3& order, Buffer<Id>& tetrahedra, Job& job) {
+  const Parts parts(tetrahedra.size() / 4, job);
+  job.run(parts.count(), [&](std::size_t part) {
+    for (std::size_t t = parts.begin(part); t < parts.end(part); ++t) {
+      Id* v = &tetrahedra[4 * t];
+      for (int k = 0; k < 4; ++k) v[k] = order.row[static_cast<std::size_t>(v[k])];
+      settle(v[0], v[1]);
+      settle(v[2], v[3]);
+      settle(v[0], v[2]);
+      settle(v[1], v[3]);
+      settle(v[1], v[2]);
+    }
+  });
+}
+
+// Fills the arrays of triangles, and the radii of tetrahedra; a part is a range of tetrahedra.
 class Writer {
  public:
   Writer(const SpatialOrder3& order, const Compact3& mesh, Facets3& facets, Filtration3& out,
@@ -75,7 +81,6 @@ void Writer::write_tetrahedra(std::size_t t, std::size_t end, TetrahedronBlock& 
   for (std::size_t i = t; i < end; ++i) {
     const Id* v = &mesh_.vertex[4 * i];
     block.push(p_[v[0]], p_[v[1]], p_[v[2]], p_[v[3]]);
-    write_tetrahedron(row_, v, &out_.tetrahedra[4 * i]);
   }
   block.measure(order_.lattice, order_.exponent);
   std::copy(block.radius, block.radius + block.count, &out_.tetrahedron_radii[t]);
@@ -103,7 +108,6 @@ std::size_t Writer::number_triangles(std::size_t lo, std::size_t hi) {
 }
 
 void Writer::tetrahedra() {
-  out_.tetrahedra = Buffer<Id>(4 * mesh_.count);
   out_.tetrahedron_radii = Buffer<double>(mesh_.count);
   attached_ = Buffer<std::uint8_t>(mesh_.count);
   facets_.obtuse = Buffer<std::uint8_t>(mesh_.count);
@@ -193,6 +197,26 @@ void Writer::triangles() {
 
 }  // namespace
 
+void write_rows(const SpatialOrder3& order, Compact3& mesh, Job& job) {
+  const Parts parts(mesh.count, job);
+  job.run(parts.count(), [&](std::size_t part) {
+    for (std::size_t t = parts.begin(part); t < parts.end(part); ++t) {
+      // A vertex and the neighbour opposite to it, packed, are sorted as one.
+      std::int64_t pair[4];
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Id row = order.row[static_cast<std::size_t>(mesh.vertex[4 * t + k])];
+        const Id code = mesh.neighbor[4 * t + k], across = code < 0 ? -1 : code >> 2;
+        pair[k] = (std::int64_t{row} << 32) | static_cast<std::uint32_t>(across);
+      }
+      std::sort(pair, pair + 4);
+      for (std::size_t k = 0; k < 4; ++k) {
+        mesh.vertex[4 * t + k] = static_cast<Id>(pair[k] >> 32);
+        mesh.neighbor[4 * t + k] = static_cast<Id>(pair[k] & 0xffffffff);
+      }
+    }
+  });
+}
+
 Filtration3 filtration3(const SpatialOrder3& order, Compact3&& compact, Job& job) {
   Filtration3 out;
   Compact3 mesh = std::move(compact);
@@ -203,9 +227,11 @@ Filtration3 filtration3(const SpatialOrder3& order, Compact3&& compact, Job& job
     writer.tetrahedra();
     writer.triangles();
   }
-  Edges3 edges = edges3(order, std::move(mesh), std::move(facets), out.triangle_radii, job);
+  Edges3 edges = edges3(order, mesh, std::move(facets), out.triangle_radii, job);
   out.edges = std::move(edges.ends);
   out.edge_radii = std::move(edges.radii);
+  sort_rows(order, mesh.vertex, job);
+  out.tetrahedra = std::move(mesh.vertex);
   return out;
 }
 

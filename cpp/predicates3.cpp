@@ -13,9 +13,12 @@ Vector3<Dd> difference(Point3 a, Point3 b) {
   return {two_diff(a.x, b.x), two_diff(a.y, b.y), two_diff(a.z, b.z)};
 }
 
+Vector3<Pair> pair(const Vector3<Dd>& v) { return {Pair(v.x), Pair(v.y), Pair(v.z)}; }
+
 Vector3<Big> big(const Vector3<Dd>& v) { return {Big(v.x), Big(v.y), Big(v.z)}; }
 
-double length(const Vector3<Dd>& v) {
+template <class R>
+double length(const Vector3<R>& v) {
   return std::sqrt(v.x.h * v.x.h + v.y.h * v.y.h + v.z.h * v.z.h);
 }
 
@@ -43,13 +46,14 @@ struct Circumcentre {
   }
 };
 
-// Sign by double-double if |value| exceeds the bound, zero if it is below what the lattice
+// Sign of a pair if its magnitude exceeds the bound, zero if it is below what the lattice
 // resolves, otherwise by `exact`.
 template <class Exact>
-int decide(Dd value, double bound, double resolution, Exact&& exact) {
+int decide(Pair pair, double bound, double resolution, Exact&& exact) {
   ALPHAMESH_NOTE(calls);
-  if (std::fabs(value.h) > bound) return value.h > 0.0 ? 1 : -1;
-  if (std::fabs(value.h) + bound < resolution) return 0;
+  const double value = pair.h + pair.l;
+  if (std::fabs(value) > bound) return value > 0.0 ? 1 : -1;
+  if (std::fabs(value) + bound < resolution) return 0;
   ALPHAMESH_NOTE(expansions);
   return exact().sign();
 }
@@ -58,37 +62,42 @@ int decide(Dd value, double bound, double resolution, Exact&& exact) {
 
 int orient3_exact(Point3 a, Point3 b, Point3 c, Point3 d, const Lattice3& lattice) {
   const Vector3<Dd> u = difference(b, a), v = difference(c, a), w = difference(d, a);
-  const double bound = 0x1p-99 * length(u) * length(v) * length(w);
-  return decide(dot(cross(u, v), w), bound, lattice.unit * lattice.unit * lattice.unit,
+  const double bound = 0x1p-97 * length(u) * length(v) * length(w);  // k = 8, c = 66: see Pair
+  return decide(dot(cross(pair(u), pair(v)), pair(w)), bound,
+                lattice.unit * lattice.unit * lattice.unit,
                 [&] { return dot(cross(big(u), big(v)), big(w)); });
 }
 
 int dot3_exact(Point3 a, Point3 b, Point3 c, const Lattice3& lattice) {
   const Vector3<Dd> u = difference(a, c), v = difference(b, c);
-  return decide(dot(u, v), 0x1p-100 * length(u) * length(v), lattice.unit * lattice.unit,
+  const double bound = 0x1p-98 * length(u) * length(v);  // k = 5, c = 26
+  return decide(dot(pair(u), pair(v)), bound, lattice.unit * lattice.unit,
                 [&] { return dot(big(u), big(v)); });
 }
 
 // Sums of magnitudes: |a||b||c| (s |e| + |e|^2) with s = |a| + |b| + |c|, times sqrt(3) as
-// components are bounded by lengths, times some 60 u^2 for the roundings.
+// components are bounded by lengths. The circumcentre has k = 12 and c = 136, the volume 8
+// and 66, the value 17 and 284: with sqrt(3), below 2^9 u^2.
 int in_sphere_exact(Point3 p, Point3 a, Point3 b, Point3 c, Point3 e, const Lattice3& lattice) {
   const Vector3<Dd> u = difference(a, p), v = difference(b, p), w = difference(c, p);
   const Vector3<Dd> q = difference(e, p);
   const double lu = length(u), lv = length(v), lw = length(w), lq = length(q);
-  const double bound = 0x1p-98 * (lu * lv * lw) * ((lu + lv + lw) * lq + lq * lq);
+  const double bound = 0x1p-95 * (lu * lv * lw) * ((lu + lv + lw) * lq + lq * lq);
   const double unit = lattice.unit;
-  return decide(Circumcentre<Dd>(u, v, w).in_sphere(q), bound, unit * unit * unit * unit * unit,
+  return decide(Circumcentre<Pair>(pair(u), pair(v), pair(w)).in_sphere(pair(q)), bound,
+                unit * unit * unit * unit * unit,
                 [&] { return Circumcentre<Big>(big(u), big(v), big(w)).in_sphere(big(q)); });
 }
 
+// Magnitudes: see TetrahedronBlock. k = 22 and c = 450, times 11 sqrt(3): below 2^14 u^2.
 int circumcentre_side_exact(const Point3* p, int k, const Lattice3& lattice) {
   const Vector3<Dd> u = difference(p[1], p[0]), v = difference(p[2], p[0]);
   const Vector3<Dd> w = difference(p[3], p[0]);
   const double lu = length(u), lv = length(v), lw = length(w);
   const double most = std::max(lu, std::max(lv, lw));
-  const double bound = 0x1p-94 * (lu * lv * lw) * (most * most * most);
+  const double bound = 0x1p-90 * (lu * lv * lw) * (most * most * most);
   const double cube = lattice.unit * lattice.unit * lattice.unit;
-  return decide(Circumcentre<Dd>(u, v, w).side(k), bound, cube * cube,
+  return decide(Circumcentre<Pair>(pair(u), pair(v), pair(w)).side(k), bound, cube * cube,
                 [&] { return Circumcentre<Big>(big(u), big(v), big(w)).side(k); });
 }
 
@@ -105,13 +114,6 @@ bool in_sphere_perturbed(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e,
     if (s != 0) return s > 0;
   }
   return false;
-}
-
-double volume_accurate(Point3 a, Point3 b, Point3 c, Point3 d) {
-  const Vector3<Dd> u = difference(b, a), v = difference(c, a), w = difference(d, a);
-  const Dd det = dot(cross(u, v), w);
-  if (std::fabs(det.h) > 0x1p-46 * length(u) * length(v) * length(w)) return det.h + det.l;
-  return dot(cross(big(u), big(v)), big(w)).estimate();
 }
 
 namespace {
@@ -133,9 +135,9 @@ Vector3<double> normal_accurate(Point3 a, Point3 b, Point3 c) {
 
 Vector3<double> circumcentre_accurate(Point3 p, Point3 a, Point3 b, Point3 c, double* w) {
   const Vector3<Dd> u = difference(a, p), v = difference(b, p), t = difference(c, p);
-  const Circumcentre<Dd> plain(u, v, t);
+  const Circumcentre<Pair> plain(pair(u), pair(v), pair(t));
   const double lu = length(u), lv = length(v), lt = length(t), product = lu * lv * lt;
-  const Vector3<Dd>& n = plain.numerator;
+  const Vector3<Pair>& n = plain.numerator;
   if (std::fabs(plain.volume.h) > 0x1p-46 * product &&
       length(n) > 0x1p-46 * product * (lu + lv + lt)) {
     *w = plain.volume.h + plain.volume.l;

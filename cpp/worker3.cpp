@@ -60,13 +60,6 @@ int Worker::infinite(Id t) {
   return -1;
 }
 
-bool Worker::conflict(Id t, Point3 q) {
-  const Verdict v = test(store_.sphere[static_cast<std::size_t>(t)], q);
-  if (v.value > v.bound) return true;
-  if (v.value < -v.bound) return false;
-  return conflict_exact(t, q, v);
-}
-
 bool Worker::conflict_exact(Id t, Point3 q, Verdict verdict) {
   const int ghost = infinite(t);
   Point3 p[4];
@@ -147,51 +140,77 @@ Id Worker::locate_exactly(Id t, Point3 q) {
 bool Worker::collect(Id start, Point3 q) {
   cavity_.clear();
   border_.clear();
+  cavity_.reserve(8);
+  border_.reserve(8);
   tet(start).vertex[3] |= kMark;
-  cavity_.push_back(start);
-  for (std::size_t k = 0; k < cavity_.size(); ++k) {
-    const Id t = cavity_[k];
-    for (Id i = 0; i < 4; ++i) {
-      const Id code = tet(t).neighbor[i], u = code >> 2;
-      if (tet(u).vertex[3] < 0) continue;
-      if (!conflict(u, q)) {
-        border_.push_back({4 * t + i, code, {0, 0, 0}, {0, 0, 0}, -1});
-        continue;
-      }
-      if (!owns_all(u)) {
-        unmark();
-        return false;
-      }
-      tet(u).vertex[3] |= kMark;
-      cavity_.push_back(u);
-    }
+  cavity_.next() = 4 * start;
+  cavity_.keep(true);
+  bool ours = visit(start, 0, q);
+  for (std::size_t k = 0; ours && k < cavity_.size(); ++k) {
+    if (k + 1 < cavity_.size()) prefetch_around(cavity_[k + 1]);
+    cavity_.reserve(4);
+    border_.reserve(4);
+    const Id t = cavity_[k] >> 2, entry = cavity_[k] & 3;
+    for (Id i = 1; i < 4; ++i) ours &= visit(t, (entry + i) & 3, q);
   }
+  if (!ours) unmark();
+  return ours;
+}
+
+// Looks across facet i of t, which is in the cavity. False if what lies there is in, too, but
+// not ours.
+inline bool Worker::visit(Id t, Id i, Point3 q) {
+  const Id code = tet(t).neighbor[i], u = code >> 2;
+  if (tet(u).vertex[3] < 0) return true;
+  if (!conflict(u, q)) {
+    Border& b = border_.next();
+    b.inner = 4 * t + i;
+    b.outer = code;
+    border_.keep(true);
+    return true;
+  }
+  if (!owns_all(u)) return false;
+  tet(u).vertex[3] |= kMark;
+  cavity_.next() = code;
+  cavity_.keep(true);
   return true;
 }
 
+void Worker::prefetch_around(Id code) {
+  const Id* around = tet(code >> 2).neighbor;
+  for (Id i = 1; i < 4; ++i) {
+    const auto u = static_cast<std::size_t>(around[(code + i) & 3] >> 2);
+    prefetch(&store_.sphere[u]);
+    prefetch(&store_.slot[u]);
+  }
+}
+
 void Worker::unmark() {
-  for (const Id t : cavity_) tet(t).vertex[3] &= kVertex;
+  for (const Id code : cavity_) tet(code >> 2).vertex[3] &= kVertex;
 }
 
 // Numbers the vertices of the border from 0 and sees them from q.
 void Worker::number_vertices(Point3 q) {
   arm_.clear();
   for (Border& b : border_) {
-    const Id t = b.inner >> 2;
+    arm_.reserve(3);
+    const Id* v = tet(b.inner >> 2).vertex;
     for (int k = 0; k < 3; ++k) {
-      const Id v = vertex(t, kFacet[b.inner & 3][k]);
-      Id& local = local_[static_cast<std::size_t>(v)];
-      if (local < 0) {
-        local = static_cast<Id>(arm_.size());
-        arm_.push_back({0.0, 0.0, 0.0, 1.0, 0.0, v});
-      }
-      b.vertex[k] = v;
+      b.vertex[k] = v[kFacet[b.inner & 3][k]] & kVertex;
+      Id& local = local_[static_cast<std::size_t>(b.vertex[k])];
+      const bool fresh = local < 0;
+      local = fresh ? static_cast<Id>(arm_.size()) : local;
+      arm_.next().vertex = b.vertex[k];
+      arm_.keep(fresh);
       b.local[k] = local;
     }
   }
   for (Arm& a : arm_) {
     local_[static_cast<std::size_t>(a.vertex)] = -1;
-    if (a.vertex == store_.infinity) continue;
+    if (a.vertex == store_.infinity) {
+      a = {0.0, 0.0, 0.0, 1.0, 0.0, a.vertex};
+      continue;
+    }
     const Vector3<double> d = store_.p[a.vertex] - q;
     const double square = dot(d, d);
     a = {d.x, d.y, d.z, square, std::sqrt(square), a.vertex};
@@ -202,7 +221,7 @@ void Worker::number_vertices(Point3 q) {
 void Worker::fill_star(Id point, Point3 q) {
   for (std::size_t k = 0; k < border_.size(); ++k) {
     Border& b = border_[k];
-    b.made = k < cavity_.size() ? cavity_[k] : new_slot();
+    b.made = k < cavity_.size() ? cavity_[k] >> 2 : new_slot();
     tet(b.made) = {{point, b.vertex[0], b.vertex[1], b.vertex[2]}, {b.outer, -1, -1, -1}};
     tet(b.outer >> 2).neighbor[b.outer & 3] = 4 * b.made;
     store_.sphere[static_cast<std::size_t>(b.made)] = sphere_of(
@@ -210,9 +229,10 @@ void Worker::fill_star(Id point, Point3 q) {
         arm_[static_cast<std::size_t>(b.local[2])]);
   }
   for (std::size_t k = border_.size(); k < cavity_.size(); ++k) {
-    tet(cavity_[k]).vertex[0] = -1;
-    tet(cavity_[k]).vertex[3] = 0;
-    free_.push_back(cavity_[k]);
+    const Id t = cavity_[k] >> 2;
+    tet(t).vertex[0] = -1;
+    tet(t).vertex[3] = 0;
+    free_.push_back(t);
   }
 }
 

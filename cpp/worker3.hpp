@@ -12,6 +12,7 @@
 #include "delaunay3.hpp"
 #include "memory.hpp"
 #include "sphere3.hpp"
+#include "stack.hpp"
 
 namespace alphamesh {
 
@@ -35,12 +36,8 @@ struct Store {
   void reserve(std::size_t slots) {
     if (slots <= slot.size()) return;
     if (slots >= std::size_t{1} << 29) throw std::bad_alloc();
-    Buffer<Tetrahedron> more(slots);
-    Buffer<Sphere> spheres(slots);
-    std::copy(slot.data(), slot.data() + used.load(), more.begin());
-    std::copy(sphere.data(), sphere.data() + used.load(), spheres.begin());
-    slot = std::move(more);
-    sphere = std::move(spheres);
+    slot.grow(slots);
+    sphere.grow(slots);
   }
 };
 
@@ -74,18 +71,28 @@ class Worker {
 
   Tetrahedron& tet(Id t) { return store_.slot[static_cast<std::size_t>(t)]; }
   Id vertex(Id t, int i) { return tet(t).vertex[i] & kVertex; }
-  bool owns(Id v) const { return (v >= first_ && v < last_) || v == store_.infinity; }
+  bool owns(Id v) const {
+    const auto at = static_cast<std::uint32_t>(v - first_);
+    return (at < static_cast<std::uint32_t>(last_ - first_)) | (v == store_.infinity);
+  }
   bool owns_all(Id t) {
     const Id* v = tet(t).vertex;
-    return owns(v[0]) && owns(v[1]) && owns(v[2]) && owns(v[3] & kVertex);
+    return owns(v[0]) & owns(v[1]) & owns(v[2]) & owns(v[3] & kVertex);
   }
   int infinite(Id t);
-  bool conflict(Id t, Point3 q);
+  bool conflict(Id t, Point3 q) {
+    const Verdict v = test(store_.sphere[static_cast<std::size_t>(t)], q);
+    if (v.value > v.bound) return true;
+    if (v.value < -v.bound) return false;
+    return conflict_exact(t, q, v);
+  }
   bool conflict_exact(Id t, Point3 q, Verdict verdict);
   Id locate(Point3 q);
   Id locate_exactly(Id t, Point3 q);
   int way_out(Id t, Point3 q, int entry);
   bool collect(Id start, Point3 q);
+  bool visit(Id t, Id i, Point3 q);
+  void prefetch_around(Id code);
   void unmark();
   void number_vertices(Point3 q);
   void fill_star(Id point, Point3 q);
@@ -98,9 +105,10 @@ class Worker {
   bool out_of_room_ = false;
   std::uint32_t random_ = 12345;
   std::size_t chunk_ = 0, chunk_end_ = 0;
-  std::vector<Id> free_, cavity_;
-  std::vector<Border> border_;
-  std::vector<Arm> arm_;
+  std::vector<Id> free_;
+  Stack<Id> cavity_;  // 4t + i: entered through facet i of t
+  Stack<Border> border_;
+  Stack<Arm> arm_;
   Buffer<Id> local_;
   std::vector<Id> table_;
   std::vector<std::pair<std::uint64_t, Id>> directed_;

@@ -164,6 +164,41 @@ def test_threads_agree_on_a_large_cloud():
         assert np.array_equal(one[name], three[name])
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+def test_more_tetrahedra_than_room_was_made_for(threads):
+    """Two skew lines: each step along one is joined to each step along the other."""
+    steps, zero = np.arange(400.0), np.zeros(400)
+    first = np.column_stack([steps, zero, zero])
+    points = np.concatenate([first, np.column_stack([zero, steps, zero + 1])])
+    result = alpha3(points, threads)
+    assert len(result["tetrahedra"]) == 399**2
+    counts = [len(points), *(len(result[name]) for name in ("edges", "triangles"))]
+    assert counts[0] - counts[1] + counts[2] - 399**2 == 1
+    positive = signed(points, result["tetrahedra"])
+    assert (_core.orient3(corners(points, positive)) > 0).all()
+
+
+def test_bare_triangulation(cloud):
+    dimension, representative, tetrahedra, neighbors = _core.delaunay3(cloud, 1, None)
+    assert (dimension, representative) == (3, None)
+    result = alpha3(cloud)
+    assert np.array_equal(tetrahedra, result["tetrahedra"])
+    facets = {}
+    for row, pair in zip(result["triangles"], result["triangle_tetrahedra"], strict=True):
+        facets[tuple(row.tolist())] = set(pair.tolist())
+    for t, (row, across) in enumerate(
+        zip(tetrahedra.tolist(), neighbors.tolist(), strict=True)
+    ):
+        for k in range(4):
+            assert facets[tuple(row[:k] + row[k + 1 :])] == {t, across[k]}
+
+
+def test_bare_triangulation_of_a_flat_cloud():
+    dimension, representative, tetrahedra, neighbors = _core.delaunay3(grid(3)[:9], 1, None)
+    assert (dimension, representative) == (2, None)
+    assert tetrahedra.shape == neighbors.shape == (0, 4)
+
+
 def test_duplicates_are_merged():
     points = np.concatenate([grid(3), grid(3)[::-1]])
     result = alpha3(points)

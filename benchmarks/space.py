@@ -1,0 +1,200 @@
+"""``python -m benchmarks.space``: clouds in space, beside shull, gudhi and diode.
+
+Ours makes the triangulation and the values of all simplices, as gudhi and diode do; shull
+the bare triangulation, in two ways. In each table the contestants take turns; those that are
+not installed, or are expected to take too long, are left out with a word. Ends with the
+promised ratios, pass or fail.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from importlib import import_module
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+from benchmarks import isolated
+from benchmarks.clouds import Points
+from benchmarks.jobs import JOBS, Run, space
+from benchmarks.timing import Rounds, forecast, interleave
+from benchmarks.verdict import Criterion
+
+__all__ = ["SPACE_CLOUDS", "main"]
+
+_OURS, _ONE, _BARE, _BARE_ONE = "all values", "all values, 1 thread", "bare", "bare, 1 thread"
+_SHULL = ("shull", "shull parallel")
+_MOST_BYTES = 1800.0
+# Peers that cannot do what a cloud asks for in bearable time, measured at 100,000 points.
+_HOPELESS = {("shull", "grid"), ("shull parallel", "grid")}
+
+
+def _uniform(n: int, random: np.random.Generator) -> Points:
+    return random.random((n, 3))
+
+
+def _clusters(n: int, random: np.random.Generator) -> Points:
+    centres, widths = random.random((30, 3)), np.geomspace(0.002, 0.06, 30)
+    which = random.integers(30, size=n)
+    return centres[which] + widths[which, None] * random.standard_normal((n, 3))
+
+
+def _sphere(n: int, random: np.random.Generator) -> Points:
+    points = random.standard_normal((n, 3))
+    unit: Points = points / np.linalg.norm(points, axis=1, keepdims=True)
+    return unit
+
+
+def _torus(n: int, random: np.random.Generator) -> Points:
+    u, v = 2 * np.pi * random.random((2, n))
+    distance = 2 + np.cos(v)
+    return np.column_stack([distance * np.cos(u), distance * np.sin(u), np.sin(v)])
+
+
+def _grid(n: int, random: np.random.Generator) -> Points:
+    """Return a shuffled integer cube of at most `n` points."""
+    side = round(n ** (1 / 3))
+    side -= side**3 > n
+    return random.permutation(np.indices((side,) * 3).reshape(3, -1).T.astype(np.float64))
+
+
+SPACE_CLOUDS: dict[str, Callable[[int, np.random.Generator], Points]] = {
+    "uniform": _uniform,
+    "clusters": _clusters,
+    "sphere": _sphere,
+    "torus": _torus,
+    "grid": _grid,
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; 1 if a promise is broken."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.space")
+    parser.add_argument("--sizes", type=int, nargs="+", default=[100_000, 1_000_000])
+    parser.add_argument("--clouds", nargs="+", choices=SPACE_CLOUDS, default=[*SPACE_CLOUDS])
+    parser.add_argument("--repeats", type=int, default=5, help="turns of each contestant")
+    parser.add_argument("--budget", type=float, default=60.0, help="seconds for each")
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--tiny", action="store_true", help="1,000 points, in seconds")
+    options = parser.parse_args(arguments)
+    if options.tiny:
+        options.sizes, options.repeats, options.budget = [1_000], 2, 1.0
+    runs = dict(_contestants(options.threads))
+    medians: dict[tuple[str, int], dict[str, float]] = {}
+    for size in options.sizes:
+        for cloud in options.clouds:
+            points = _make(cloud, size)
+            earlier = {n: taken for (name, n), taken in medians.items() if name == cloud}
+            medians[cloud, size] = _table(runs, cloud, points, earlier, options)
+    criteria = [*_criteria(medians, options.sizes), *_memory(options.sizes)]
+    print()
+    for criterion in criteria:
+        print(criterion)
+    return 0 if options.tiny or all(criterion.passed for criterion in criteria) else 1
+
+
+def _make(cloud: str, size: int) -> Points:
+    return np.ascontiguousarray(SPACE_CLOUDS[cloud](size, np.random.default_rng(1)))
+
+
+def _contestants(threads: int) -> Iterator[tuple[str, Run]]:
+    yield _OURS, space("filtration", threads)()
+    yield _ONE, space("filtration", 1)()
+    yield _BARE, space("delaunay", threads)()
+    yield _BARE_ONE, space("delaunay", 1)()
+    peers: dict[str, Callable[[], Run]] = {
+        "shull": JOBS["shull"].load,
+        "shull parallel": JOBS["shull-parallel"].load,
+        "diode": JOBS["diode"].load,
+        "gudhi safe": partial(_gudhi, "safe"),
+        "gudhi exact": partial(_gudhi, "exact"),
+    }
+    for name, load in peers.items():
+        try:
+            yield name, load()
+        except ImportError as error:
+            print(f"left out: {name}: {error}")
+
+
+def _gudhi(precision: str) -> Run:
+    alpha_complex = import_module("gudhi").AlphaComplex
+    return lambda points: alpha_complex(
+        points=points, precision=precision
+    ).create_simplex_tree()
+
+
+def _table(
+    runs: Mapping[str, Run],
+    cloud: str,
+    points: Points,
+    earlier: Mapping[int, Mapping[str, float]],
+    options: Any,
+) -> dict[str, float]:
+    """Measure and print one cloud; medians in seconds."""
+    size = len(points)
+    print(f"\n{cloud}, {size:,} points (s, median and minimum)")
+    contestants: dict[str, Callable[[], object]] = {}
+    for name, run in runs.items():
+        reason = _too_slow(name, cloud, size, earlier, options.budget)
+        if reason:
+            print(f"{name:>22}  left out: {reason}")
+        else:
+            contestants[name] = partial(run, points)
+    seconds = 0.0 if not options.tiny else 0.05
+    turns = interleave(contestants, Rounds(options.repeats, seconds, options.budget))
+    taken = {}
+    for name, samples in turns.samples.items():
+        if samples:
+            taken[name] = median(samples)
+            print(f"{name:>22}  {taken[name]:>9.4f}  {min(samples):>9.4f}")
+        else:
+            print(f"{name:>22}  failed: {turns.failures[name]}")
+    return taken
+
+
+def _too_slow(
+    name: str, cloud: str, size: int, earlier: Mapping[int, Mapping[str, float]], budget: float
+) -> str:
+    if size >= 100_000 and (name, cloud) in _HOPELESS:
+        return "takes minutes"
+    known = {n: taken[name] for n, taken in earlier.items() if name in taken}
+    if earlier and not known:
+        return "left out or failed at a smaller size"
+    expected = forecast(known, size)
+    return f"expected {expected:.0f} s" if expected > budget else ""
+
+
+def _criteria(
+    medians: Mapping[tuple[str, int], Mapping[str, float]], sizes: Sequence[int]
+) -> Iterator[Criterion]:
+    large = medians.get(("uniform", max(sizes)), {})
+    small = medians.get(("uniform", min(sizes)), {})
+    ours = large.get(_OURS)
+    shull = min((large[name] for name in _SHULL if name in large), default=None)
+    yield Criterion(
+        f"all values over the better bare shull, {max(sizes):,}", _ratio(ours, shull), 0.45
+    )
+    yield Criterion(
+        "bare: 1 thread over several", _ratio(large.get(_BARE_ONE), large.get(_BARE)), 1.5, True
+    )
+    for name, least in (("gudhi safe", 25.0), ("diode", 8.0)):
+        ratio = _ratio(small.get(name), small.get(_OURS))
+        yield Criterion(f"{name} over all values, {min(sizes):,}", ratio, least, True)
+
+
+def _ratio(over: float | None, under: float | None) -> float | None:
+    return None if over is None or under is None else over / under
+
+
+def _memory(sizes: Sequence[int]) -> Iterator[Criterion]:
+    size = max(sizes)
+    peak, seconds = isolated.fresh_run(isolated.SPACE, _make("uniform", size), 600.0)
+    print(f"\nfirst call in a fresh process, {size:,} points: {seconds:.2f} s")
+    yield Criterion("peak memory beyond the input, bytes a point", peak / size, _MOST_BYTES)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
