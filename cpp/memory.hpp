@@ -15,15 +15,6 @@ void release(void* p, std::size_t bytes) noexcept;
 // the system can.
 void* enlarge(void* p, std::size_t bytes, std::size_t more);
 
-// Asks for a cache line that will be read soon.
-inline void prefetch(const void* p) {
-#if defined(__GNUC__)
-  __builtin_prefetch(p);
-#else
-  (void)p;
-#endif
-}
-
 // Asks for the memory at p ahead of its use; changes no result.
 inline void prefetch(const void* p) {
 #ifdef __GNUC__
