@@ -156,4 +156,42 @@ def parts3(
 ) -> NDArray[np.int32]: ...
 def orient3(corners: NDArray[np.float64]) -> NDArray[np.int8]: ...
 def insphere3(corners: NDArray[np.float64], perturb: bool) -> NDArray[np.int8]: ...
+def surface3(
+    points: NDArray[np.float64],
+    tetrahedra: NDArray[np.int32],
+    triangles: NDArray[np.int32],
+    triangle_tetrahedra: NDArray[np.int32],
+    tetrahedron_triangles: NDArray[np.int32],
+    inside: NDArray[np.bool_],
+    threads: int,
+) -> tuple[
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.int32],
+]: ...
+def outer_shells3(
+    shell: NDArray[np.int32], region: NDArray[np.int32], part: NDArray[np.int32]
+) -> NDArray[np.bool_]: ...
+def locate3(
+    points: NDArray[np.float64],
+    tetrahedra: NDArray[np.int32],
+    triangle_tetrahedra: NDArray[np.int32],
+    tetrahedron_triangles: NDArray[np.int32],
+    label: NDArray[np.int32],
+    queries: NDArray[np.float64],
+    threads: int,
+) -> tuple[NDArray[np.int32], NDArray[np.int8]]: ...
+def triangle_tree3(
+    points: NDArray[np.float64], triangles: NDArray[np.int32], threads: int
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]: ...
+def nearest3(
+    triangles: NDArray[np.float64],
+    place: NDArray[np.int32],
+    boxes: NDArray[np.float64],
+    queries: NDArray[np.float64],
+    threads: int,
+) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64]]: ...
 def self_test() -> str: ...
