@@ -16,19 +16,23 @@ import numpy as np
 from alphamesh.errors import EmptyMaskError, ParameterError
 from alphamesh.points import as_cloud
 from alphamesh.shapes import DEMO_SHAPES, DemoShape, demo_mask
+from alphamesh.solids import DEMO_SOLIDS, DemoSolid, demo_solid
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "DEMO_SHAPES",
+    "DEMO_SOLIDS",
     "DemoShape",
+    "DemoSolid",
     "Seed",
     "add_noise",
     "add_outliers",
     "demo_cloud",
     "demo_mask",
     "sample_pixels",
+    "sample_solid",
 ]
 
 Seed: TypeAlias = "int | np.random.Generator | np.random.SeedSequence | None"
@@ -137,6 +141,44 @@ def demo_cloud(
         An unknown name, or `n`, `seed` or `size` out of range.
     """
     return sample_pixels(demo_mask(name, size), n, seed=seed)
+
+
+def sample_solid(
+    name: str, n: int = 4000, *, seed: Seed = None, surface: bool = False
+) -> NDArray[np.float64]:
+    """Draw points inside a demo solid, or on its surface.
+
+    Parameters
+    ----------
+    name : str
+        A key of :data:`DEMO_SOLIDS`.
+    n : int
+        How many points, at least 1.
+    seed : int, numpy.random.Generator or None
+        As for :func:`sample_pixels`.
+    surface : bool, default False
+        Draw from the surface instead of the volume, walls of cavities included.
+
+    Returns
+    -------
+    (n, 3) float64 array
+        Uniform in the volume. On the surface, uniform but for a share of a hundredth or
+        so where it is curved most.
+
+    Raises
+    ------
+    ParameterError
+        An unknown name, or `n` or `seed` out of range.
+    """
+    solid = demo_solid(name)
+    count, rng = point_count(n), generator(seed)
+    parts: list[NDArray[np.float64]] = []
+    missing = count
+    while missing > 0:
+        found = solid.draw(rng, 2 * missing + 64, surface=surface)[:missing]
+        parts.append(found)
+        missing -= len(found)
+    return np.concatenate(parts)
 
 
 def add_noise(points: ArrayLike, sigma: float, *, seed: Seed = None) -> NDArray[np.float64]:
