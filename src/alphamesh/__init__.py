@@ -39,14 +39,23 @@ if TYPE_CHECKING:
     from alphamesh.persistence import Persistence, persistence
     from alphamesh.planar import Selection
     from alphamesh.queries import Nearest
+    from alphamesh.queries3d import Nearest3D
     from alphamesh.radius import RadiusChoice, choose_radius
     from alphamesh.regions import Holes, Regions
     from alphamesh.regions3d import Regions3D, Voids
     from alphamesh.restricted import RestrictedVoronoi, restricted_voronoi
-    from alphamesh.sampling import DEMO_SHAPES, demo_cloud, demo_mask
+    from alphamesh.sampling import (
+        DEMO_SHAPES,
+        DEMO_SOLIDS,
+        demo_cloud,
+        demo_mask,
+        sample_solid,
+    )
     from alphamesh.shape import AlphaShape
     from alphamesh.shape3d import AlphaShape3D
+    from alphamesh.shells import Shells
     from alphamesh.solid import Selection3D
+    from alphamesh.surface import Surface, boundary_surface
     from alphamesh.table import PointTable
     from alphamesh.voronoi import ClippedVoronoi, Voronoi, voronoi
 
@@ -54,6 +63,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "DEMO_SHAPES",
+    "DEMO_SOLIDS",
     "FRAME_SHAPES",
     "GEO_FORMATS",
     "MESH_FORMATS",
@@ -76,6 +86,7 @@ __all__ = [
     "MeasureCurves3D",
     "Mesh",
     "Nearest",
+    "Nearest3D",
     "Persistence",
     "PointTable",
     "RadiusChoice",
@@ -85,12 +96,15 @@ __all__ = [
     "Rings",
     "Selection",
     "Selection3D",
+    "Shells",
     "SimplexKind",
+    "Surface",
     "Voids",
     "Voronoi",
     "__version__",
     "alpha_shapes",
     "animate",
+    "boundary_surface",
     "check",
     "choose_radius",
     "convex_hull",
@@ -109,6 +123,7 @@ __all__ = [
     "read_table",
     "restricted_voronoi",
     "sample_mask",
+    "sample_solid",
     "voronoi",
     "write_geo",
     "write_mesh",
@@ -138,14 +153,17 @@ _HOMES = {
     "persistence": ("Persistence", "persistence"),
     "planar": ("Selection",),
     "queries": ("Nearest",),
+    "queries3d": ("Nearest3D",),
     "radius": ("RadiusChoice", "choose_radius"),
     "regions": ("Holes", "Regions"),
     "regions3d": ("Regions3D", "Voids"),
     "restricted": ("RestrictedVoronoi", "restricted_voronoi"),
-    "sampling": ("DEMO_SHAPES", "demo_cloud", "demo_mask"),
+    "sampling": ("DEMO_SHAPES", "DEMO_SOLIDS", "demo_cloud", "demo_mask", "sample_solid"),
     "shape": ("AlphaShape",),
     "shape3d": ("AlphaShape3D",),
     "solid": ("Selection3D",),
+    "shells": ("Shells",),
+    "surface": ("Surface", "boundary_surface"),
     "table": ("PointTable",),
     "voronoi": ("ClippedVoronoi", "Voronoi", "voronoi"),
 }

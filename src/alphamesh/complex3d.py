@@ -14,11 +14,14 @@ from alphamesh.filtration3d import filtration_in_space
 from alphamesh.shape3d import AlphaShape3D
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
     from alphamesh.delaunay3d import Delaunay3D
     from alphamesh.filtration3d import Filtration3D
     from alphamesh.hull3d import ConvexHull3D
+    from alphamesh.plot import Drawing
 
 __all__ = ["AlphaComplex3D"]
 
@@ -107,6 +110,16 @@ class AlphaComplex3D(AlphaComplex):
         vertices, *others = self._filtration.radii
         return read_only(np.unique(np.concatenate((vertices[:1], *others))))
 
+    def plot(
+        self, radius: float | None = None, ax: Axes | None = None, **options: Any
+    ) -> Drawing:
+        """Draw the complex at `radius`, lit and seen in perspective, on matplotlib axes.
+
+        See :meth:`at` for the radius and :func:`alphamesh.plot.plot_solid` for the axes,
+        new ones if `ax` is None, and for `options` such as ``cut`` and ``view``.
+        """
+        return self.at(radius).plot(ax, **options)
+
     @property
     def convex_hull(self) -> ConvexHull3D:  # type: ignore[override]
         """The convex hull: the border of the triangulation."""
@@ -133,10 +146,6 @@ class AlphaComplex3D(AlphaComplex):
         raise DimensionError(
             f"restricted Voronoi cells are there in the plane alone; {_IN_PLANE}"
         )
-
-    def plot(self, *_: Any, **__: Any) -> NoReturn:
-        """Not there in space."""
-        raise DimensionError(f"plot() draws complexes in the plane alone; {_IN_PLANE}")
 
     def animate(self, *_: Any, **__: Any) -> NoReturn:
         """Not there in space."""

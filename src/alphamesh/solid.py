@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import read_only
+from alphamesh.bounded import BoundedShape
 from alphamesh.classify import SimplexKind
 from alphamesh.parts import Parts, as_cell_mask, chosen_regions, labelled, large_regions
 from alphamesh.regions3d import (
@@ -19,7 +20,6 @@ from alphamesh.regions3d import (
     find_voids,
     without_voids,
 )
-from alphamesh.simplices3d import SimplexSet3D
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, IntArray, KindArray
@@ -28,7 +28,7 @@ __all__ = ["Selection3D", "SolidShape"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SolidShape(SimplexSet3D):
+class SolidShape(BoundedShape):
     """Simplices in space, and what their tetrahedra make up.
 
     Regions are about the tetrahedra alone, the regularized shape: not about singular

@@ -15,6 +15,7 @@ from alphamesh.check._delaunay import check_delaunay
 from alphamesh.check._filtration import RADIUS_ERROR, check_filtration
 from alphamesh.check._shape import check_shape
 from alphamesh.check._space_filtration import RADIUS_ERROR_IN_SPACE
+from alphamesh.check._surface import check_surface
 
 __all__ = [
     "RADIUS_ERROR",
@@ -22,4 +23,5 @@ __all__ = [
     "check_delaunay",
     "check_filtration",
     "check_shape",
+    "check_surface",
 ]

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from alphamesh.io._mesh import Numbers
 
-__all__ = ["read_with_meshio", "write_vtk", "write_vtu"]
+__all__ = ["as_meshio", "read_with_meshio", "write_vtk", "write_vtu"]
 
 
 def write_vtu(mesh: Mesh, path: Path) -> None:
@@ -42,6 +42,12 @@ def write_vtk(mesh: Mesh, path: Path) -> None:
     """Write a binary VTK file, version 5.1."""
     meshio = _meshio("Writing VTK files")
     meshio.vtk.write(str(path), _converted(meshio, mesh, _blocks(mesh), _vtk_numbers))
+
+
+def as_meshio(mesh: Mesh) -> Any:
+    """Return a mesh as a ``meshio.Mesh``: kinds without a cell are left out."""
+    meshio = _meshio("Making its meshes")
+    return _converted(meshio, mesh, _blocks(mesh), np.array)
 
 
 def read_with_meshio(path: Path, module: str) -> Mesh:

@@ -15,6 +15,7 @@ from alphamesh.io._layout import TextOptions
 from alphamesh.io._npy import read_npy, read_npz
 from alphamesh.io._parquet import read_parquet
 from alphamesh.io._ply import read_ply
+from alphamesh.io._scans import read_las, read_pcd
 from alphamesh.io._sources import Source, open_source
 from alphamesh.io._text import read_text
 from alphamesh.io.geo import GEO_FORMATS, read_geo
@@ -34,7 +35,14 @@ _TEXT: dict[str, str | None] = {
     "dat": None,
     "xyz": None,
 }
-_BINARY = {"npy": read_npy, "parquet": read_parquet, "ply": read_ply}
+_BINARY = {
+    "las": read_las,
+    "laz": read_las,
+    "npy": read_npy,
+    "parquet": read_parquet,
+    "pcd": read_pcd,
+    "ply": read_ply,
+}
 
 # Where three columns without names are coordinates, as a rule.
 _UNNAMED = frozenset({"xyz", "npy", "npz"})
@@ -43,7 +51,9 @@ _IMAGES = frozenset({"png", "jpg", "jpeg", "tif", "tiff", "gif", "bmp", "webp", 
 
 _VECTOR = tuple(key[1:] for key in GEO_FORMATS if key[1:] not in ("parquet", "wkb"))
 
-POINT_FORMATS: tuple[str, ...] = (*_TEXT, "npy", "npz", "parquet", "ply", *_VECTOR)
+POINT_FORMATS: tuple[str, ...] = (
+    *_TEXT, "las", "laz", "npy", "npz", "parquet", "pcd", "ply", *_VECTOR,
+)  # fmt: skip
 """The formats that :func:`read_points` reads, each also a file name extension."""
 
 
@@ -65,8 +75,9 @@ def read_points(  # noqa: PLR0913 (one keyword per property of a text table)
     """Read the coordinates of points from a file.
 
     Text tables (CSV, TSV, TXT, DAT, XYZ; also packed as ``.gz``), NPY and NPZ, Parquet,
-    the vertices of PLY files, ASCII or binary, and the point layers of a GIS: GeoJSON,
-    GeoPackage, FlatGeobuf, GeoParquet, shapefiles, WKT.
+    the vertices of PLY files, ASCII or binary, the clouds of scanners, LAS and LAZ (with
+    laspy) and PCD (with pypcd4), and the point layers of a GIS: GeoJSON, GeoPackage,
+    FlatGeobuf, GeoParquet, shapefiles, WKT.
 
     Parameters
     ----------
@@ -80,8 +91,8 @@ def read_points(  # noqa: PLR0913 (one keyword per property of a text table)
         east(ing) and north(ing); if no name is one of these, the first columns.
     dimension : {2, 3}, optional
         How many coordinates to read: by default as many as `columns`. Without these, 3
-        if there is a column z beside x and y, as in most PLY files, or if an XYZ, NPY or
-        NPZ file has three columns without names, unless all z are equal; else 2. So
+        if there is a column z beside x and y, as in most PLY and LAS files, or if an XYZ,
+        NPY or NPZ file has three columns without names, unless all z are equal; else 2. So
         ``dimension=2`` leaves z out.
     file_format : str, optional
         One of :data:`POINT_FORMATS`, whatever the extension says.
@@ -118,8 +129,8 @@ def read_points(  # noqa: PLR0913 (one keyword per property of a text table)
     ParameterError
         If a parameter has no possible value, or does not go with the format.
     MissingLibraryError
-        For Parquet, if pyarrow is not installed; for files of a GIS, if geopandas or
-        pyogrio is not.
+        For Parquet, LAS, LAZ or PCD, if the library that reads it is not installed; for
+        files of a GIS, if geopandas or pyogrio is not.
 
     See Also
     --------

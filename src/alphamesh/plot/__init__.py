@@ -25,7 +25,9 @@ from alphamesh.plot.drawing import Drawing, plot_cloud
 from alphamesh.plot.growth import GrowthView
 from alphamesh.plot.outlines import plot_frame, plot_hull
 from alphamesh.plot.overview import plot_overview
+from alphamesh.plot.overview3d import plot_cloud_in_space
 from alphamesh.plot.render import FIGURE_FORMATS, figure_bytes
+from alphamesh.plot.solids import plot_solid, plot_surface
 from alphamesh.plot.steps import plot_outlines, plot_radii, three_radii
 from alphamesh.plot.story import plot_story
 from alphamesh.plot.style import COLORS
@@ -41,6 +43,7 @@ __all__ = [
     "plot_barcode",
     "plot_betti",
     "plot_cloud",
+    "plot_cloud_in_space",
     "plot_complex",
     "plot_delaunay",
     "plot_diagram",
@@ -51,7 +54,9 @@ __all__ = [
     "plot_overview",
     "plot_radii",
     "plot_restricted_voronoi",
+    "plot_solid",
     "plot_story",
+    "plot_surface",
     "plot_union",
     "plot_voronoi",
     "three_radii",

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from alphamesh.filtration3d import Filtration3D
 from alphamesh.plot.complexes import plot_complex, plot_delaunay
 from alphamesh.plot.drawing import plot_cloud
+from alphamesh.plot.overview3d import plot_overview_in_space
 from alphamesh.plot.panels import (
     add_legend,
     add_title,
@@ -29,9 +31,11 @@ __all__ = ["cloud_text", "delaunay_text", "plot_overview"]
 def plot_overview(source: Filtration | HasFiltration, radius: float | None = None) -> Figure:
     """Draw a cloud, its Delaunay triangulation and its alpha complex side by side.
 
+    In space, a cloud, its alpha complex, and that cut open.
+
     Parameters
     ----------
-    source : Filtration or AlphaComplex
+    source : Filtration or Filtration3D, AlphaComplex or AlphaComplex3D
     radius : float, optional
         Radius of the complex shown, in the units of the points; chosen by the
         default rule if None.
@@ -42,6 +46,8 @@ def plot_overview(source: Filtration | HasFiltration, radius: float | None = Non
         A new figure with three axes, whose height follows the cloud's proportions.
     """
     filtration = filtration_of(source)
+    if isinstance(filtration, Filtration3D):
+        return plot_overview_in_space(filtration, radius)
     if radius is None:
         radius = choose_radius(filtration).radius
     shape = AlphaShape(filtration, radius)

@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from alphamesh.filtration import Filtration
+from alphamesh.filtration3d import Filtration3D
 from alphamesh.plot.drawing import new_figure
 from alphamesh.plot.style import COLORS
 
@@ -49,7 +50,7 @@ class HasFiltration(Protocol):
 
 def filtration_of(source: Filtration | HasFiltration) -> Filtration:
     """Return the filtration that `source` is or holds."""
-    return source if isinstance(source, Filtration) else source.filtration
+    return source if isinstance(source, Filtration | Filtration3D) else source.filtration
 
 
 def panels(

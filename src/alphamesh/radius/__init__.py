@@ -5,6 +5,7 @@ from __future__ import annotations
 from alphamesh.radius import (
     _all_points,
     _cell_count,
+    _enclosed,
     _longest_interval,
     _regions,
     _topology,
@@ -23,4 +24,6 @@ __all__ = [
     "rule_names",
 ]
 
-_RULE_MODULES = (_all_points, _cell_count, _longest_interval, _regions, _topology)
+_RULE_MODULES = (
+    _all_points, _cell_count, _enclosed, _longest_interval, _regions, _topology,
+)  # fmt: skip

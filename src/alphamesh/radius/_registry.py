@@ -83,6 +83,11 @@ def choose_radius(
         ``"one-region"``: the same for one piece. Known from
         ``criticalAlpha(shp, "one-region")`` in MATLAB.
 
+        ``"enclosed"``: the smallest radius at which every point is a corner of a
+        tetrahedron once the voids of the complex are filled: for points on a surface, such
+        as those of a scanner. With ``share=0.99``, at least that share of the points. In
+        space alone.
+
         ``"longest-interval"``: the middle of the widest range of radii over which the
         numbers of components and holes do not change. In the plane alone.
 

@@ -1,0 +1,126 @@
+"""Clouds of scanners: LAS and LAZ files, read by laspy, and PCD files, read by pypcd4."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from alphamesh.errors import FileReadError, MissingLibraryError
+from alphamesh.io._columns import Wanted, choose_columns, exact_floats, stack
+from alphamesh.io._sources import Source
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import FloatArray
+
+__all__ = ["las_table", "pcd_table", "read_las", "read_pcd"]
+
+
+def read_las(source: Source, wanted: Wanted) -> FloatArray:
+    """Read the coordinates in a LAS or LAZ file, scaled as its header says.
+
+    Parameters
+    ----------
+    source : Source
+    wanted : Wanted
+        As from :func:`wanted_columns`; besides ``x``, ``y`` and ``z``, the columns are the
+        other dimensions of the points, such as ``intensity``.
+
+    Returns
+    -------
+    (n, dimension) float64 array
+
+    Raises
+    ------
+    FileReadError
+        If it is not a complete LAS or LAZ file, or has no such columns.
+    MissingLibraryError
+        If laspy is not installed, or, for LAZ, the library that it unpacks with.
+    """
+    return _columns(source, wanted, *las_table(source))
+
+
+def las_table(source: Source) -> tuple[list[str], Any]:
+    """Return the names of the columns of a LAS or LAZ file, and what has them by name."""
+    try:
+        import laspy
+    except ImportError as error:
+        raise MissingLibraryError.of("laspy", "las", "reading LAS and LAZ files") from error
+    with source.open() as file:
+        _refuse_other(source, file.read(4), b"LASF", "LAS")
+        file.seek(0)
+        try:
+            points: Any = laspy.read(file, closefd=False)
+        except Exception as error:  # laspy and its decoders raise errors of many types
+            if "No LazBackend" in str(error):
+                raise MissingLibraryError.of("lazrs", "las", "reading LAZ files") from error
+            raise _damaged(source, "LAS", error) from error
+    promised = points.header.point_count
+    if len(points) != promised:
+        raise source.failure(
+            f"is cut off: its header promises {promised} points and {len(points)} follow; "
+            "write or copy it again"
+        )
+    # The raw integers X, Y and Z come first; the scaled ones take their place.
+    return ["x", "y", "z", *list(points.point_format.dimension_names)[3:]], points
+
+
+def read_pcd(source: Source, wanted: Wanted) -> FloatArray:
+    """Read the coordinates in a PCD file: ASCII, binary or compressed.
+
+    Parameters
+    ----------
+    source : Source
+    wanted : Wanted
+        As from :func:`wanted_columns`; the columns are the fields of the points.
+
+    Returns
+    -------
+    (n, dimension) float64 array
+        Points that the scanner missed are NaN.
+
+    Raises
+    ------
+    FileReadError
+        If it is not a complete PCD file, or has no such fields.
+    MissingLibraryError
+        If pypcd4 is not installed.
+    """
+    return _columns(source, wanted, *pcd_table(source))
+
+
+def pcd_table(source: Source) -> tuple[list[str], Any]:
+    """Return the names of the fields of a PCD file, and what has them by name."""
+    try:
+        pypcd4: Any = import_module("pypcd4")
+    except ImportError as error:
+        raise MissingLibraryError.of("pypcd4", "pcd", "reading PCD files") from error
+    with source.open() as file:
+        try:
+            points: Any = pypcd4.PointCloud.from_fileobj(file)
+            table = points.pc_data
+        except Exception as error:  # whatever it stumbles over in a broken file
+            raise _damaged(source, "PCD", error) from error
+    promised = points.metadata.points
+    if len(table) != promised:
+        raise source.failure(
+            f"is cut off: its header promises {promised} points and {len(table)} follow; "
+            "write or copy it again"
+        )
+    return list(points.fields), table
+
+
+def _refuse_other(source: Source, start: bytes, wanted: bytes, name: str) -> None:
+    if start != wanted:
+        raise source.failure(f"is not a {name} file: it does not begin with {wanted.decode()}")
+
+
+def _damaged(source: Source, name: str, error: Exception) -> FileReadError:
+    detail = str(error) or type(error).__name__
+    return source.failure(f"is not a complete {name} file ({detail}); write or copy it again")
+
+
+def _columns(source: Source, wanted: Wanted, names: list[str], table: Any) -> FloatArray:
+    chosen = choose_columns(source, wanted, names, len(names))
+    return stack([exact_floats(source, np.asarray(table[names[k]]), names[k]) for k in chosen])
