@@ -18,6 +18,7 @@ from alphamesh.plot import (
     plot_overview,
     plot_radii,
     plot_restricted_voronoi,
+    plot_solid,
     plot_story,
     plot_voronoi,
 )
@@ -171,6 +172,20 @@ def horse():
     return small_png(figure, dpi=80)
 
 
+def solids():
+    """Draw a cavity cut open, rings that are linked, and a knot, its cuts flat."""
+    figure = new_figure(12, 4)
+    axes = figure.subplots(1, 3)
+    figure.subplots_adjust(0.0, 0.0, 1.0, 1.0, 0.0)
+    hollow = am.AlphaComplex(am.sample_solid("hollow-torus", 6000, seed=1))
+    plot_solid(hollow.at(0.16), axes[0], cut="-y", view=(28, -76))
+    rings = am.AlphaComplex(am.sample_solid("linked-rings", 5000, seed=1))
+    plot_solid(rings.at(0.17), axes[1], view=(22, -62))
+    knot = am.AlphaComplex(am.sample_solid("trefoil", 6000, seed=1))
+    plot_solid(knot.at(0.16), axes[2], view=(64, -60))
+    return small_png(figure, dpi=75)
+
+
 def grow():
     """Make the film; written by its own writer, so it is read back."""
     target = PICTURES / "grow.gif"
@@ -189,6 +204,7 @@ MAKERS = {
     "soho.png": soho,
     "airports.png": airports,
     "horse.png": horse,
+    "solids.png": solids,
     "grow.gif": grow,
 }
 
