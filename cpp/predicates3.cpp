@@ -116,6 +116,13 @@ bool in_sphere_perturbed(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e,
   return false;
 }
 
+double volume_accurate(Point3 a, Point3 b, Point3 c, Point3 d) {
+  const Vector3<Dd> u = difference(b, a), v = difference(c, a), w = difference(d, a);
+  const Dd det = dot(cross(u, v), w);
+  if (std::fabs(det.h) > 0x1p-46 * length(u) * length(v) * length(w)) return det.h + det.l;
+  return dot(cross(big(u), big(v)), big(w)).estimate();
+}
+
 namespace {
 
 double component(Dd plain, double scale, const Big& x, const Big& y, const Big& z, const Big& w) {

@@ -219,6 +219,10 @@ def test_las_files_are_read(las, scanned, name):
     assert points.shape == (200, 3)
     np.testing.assert_allclose(points, scanned, rtol=0, atol=1e-9)
     np.testing.assert_array_equal(read_points(path, dimension=2), points[:, :2])
+    table = am.read_table(path)
+    np.testing.assert_array_equal(table.points, points)
+    np.testing.assert_array_equal(table.columns["intensity"], np.arange(200))
+    assert not {"x", "y", "z", "X"} & set(table.columns)
     chosen = read_points(path, columns=("z", "intensity"))
     np.testing.assert_array_equal(chosen, np.column_stack([points[:, 2], np.arange(200.0)]))
     assert am.AlphaComplex(points - points[0]).dimension == 3

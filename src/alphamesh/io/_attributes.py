@@ -14,6 +14,7 @@ from alphamesh.io._columns import Wanted, choose_columns
 from alphamesh.io._layout import TextOptions, is_missing, is_number
 from alphamesh.io._npy import read_arrays
 from alphamesh.io._ply import read_ply, vertex_properties
+from alphamesh.io._scans import las_table, pcd_table
 from alphamesh.io._sources import Source
 from alphamesh.io._text import layout_of, read_cells
 
@@ -105,6 +106,22 @@ def _fields(source: Source, wanted: Wanted, array: NDArray[Any]) -> dict[str, ND
     }
 
 
+def _of_las(source: Source, wanted: Wanted, key: str | None) -> dict[str, NDArray[Any]]:
+    """Return the other dimensions of the points: intensity, classification and so on."""
+    return _of_table(source, wanted, *las_table(source))
+
+
+def _of_pcd(source: Source, wanted: Wanted, key: str | None) -> dict[str, NDArray[Any]]:
+    """Return the other fields of the points."""
+    return _of_table(source, wanted, *pcd_table(source))
+
+
+def _of_table(
+    source: Source, wanted: Wanted, names: Sequence[str], table: Any
+) -> dict[str, NDArray[Any]]:
+    return {name: np.asarray(table[name]) for name in _others(source, wanted, names)}
+
+
 def _of_parquet(source: Source, wanted: Wanted, key: str | None) -> dict[str, NDArray[Any]]:
     """Return all columns but the coordinates."""
     with _parquet(source) as table:
@@ -147,9 +164,12 @@ def _others(source: Source, wanted: Wanted, names: Sequence[str]) -> list[str]:
 
 
 OF: dict[str, Callable[[Source, Wanted, str | None], dict[str, NDArray[Any]]]] = {
+    "las": _of_las,
+    "laz": _of_las,
     "npy": _of_npy,
     "npz": _of_npz,
     "parquet": _of_parquet,
+    "pcd": _of_pcd,
     "ply": _of_ply,
 }
 """What returns the other columns, by format."""

@@ -14,7 +14,7 @@ from alphamesh.io._sources import Source
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
 
-__all__ = ["read_las", "read_pcd"]
+__all__ = ["las_table", "pcd_table", "read_las", "read_pcd"]
 
 
 def read_las(source: Source, wanted: Wanted) -> FloatArray:
@@ -38,6 +38,11 @@ def read_las(source: Source, wanted: Wanted) -> FloatArray:
     MissingLibraryError
         If laspy is not installed, or, for LAZ, the library that it unpacks with.
     """
+    return _columns(source, wanted, *las_table(source))
+
+
+def las_table(source: Source) -> tuple[list[str], Any]:
+    """Return the names of the columns of a LAS or LAZ file, and what has them by name."""
     try:
         import laspy
     except ImportError as error:
@@ -58,8 +63,7 @@ def read_las(source: Source, wanted: Wanted) -> FloatArray:
             "write or copy it again"
         )
     # The raw integers X, Y and Z come first; the scaled ones take their place.
-    names = ["x", "y", "z", *list(points.point_format.dimension_names)[3:]]
-    return _columns(source, wanted, names, points)
+    return ["x", "y", "z", *list(points.point_format.dimension_names)[3:]], points
 
 
 def read_pcd(source: Source, wanted: Wanted) -> FloatArray:
@@ -83,6 +87,11 @@ def read_pcd(source: Source, wanted: Wanted) -> FloatArray:
     MissingLibraryError
         If pypcd4 is not installed.
     """
+    return _columns(source, wanted, *pcd_table(source))
+
+
+def pcd_table(source: Source) -> tuple[list[str], Any]:
+    """Return the names of the fields of a PCD file, and what has them by name."""
     try:
         pypcd4: Any = import_module("pypcd4")
     except ImportError as error:
@@ -99,7 +108,7 @@ def read_pcd(source: Source, wanted: Wanted) -> FloatArray:
             f"is cut off: its header promises {promised} points and {len(table)} follow; "
             "write or copy it again"
         )
-    return _columns(source, wanted, list(points.fields), table)
+    return list(points.fields), table
 
 
 def _refuse_other(source: Source, start: bytes, wanted: bytes, name: str) -> None:
