@@ -56,7 +56,7 @@ void run_watched(Job& job, std::size_t size, const nb::object& progress, Work&& 
   std::condition_variable finished;
   bool done = false;
   std::exception_ptr error;
-  std::thread worker([&] {
+  auto watched = [&] {
     try {
       work();
     } catch (...) {
@@ -65,7 +65,15 @@ void run_watched(Job& job, std::size_t size, const nb::object& progress, Work&& 
     const std::lock_guard<std::mutex> guard(lock);
     done = true;
     finished.notify_one();
-  });
+  };
+  std::thread worker;
+  try {
+    worker = std::thread(watched);
+  } catch (const std::system_error&) {  // no room for another thread: unwatched, then
+    const nb::gil_scoped_release released;
+    work();
+    return;
+  }
   bool stop = false;
   for (;;) {
     {
