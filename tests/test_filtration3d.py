@@ -358,7 +358,7 @@ def test_what_there_is_in_the_plane_alone_says_so():
         _ = cx.voronoi
     with pytest.raises(DimensionError, match="in the plane alone; project"):
         cx.restricted_voronoi(1.0)
-    with pytest.raises(DimensionError, match="'all-points', 'one-region'"):
+    with pytest.raises(DimensionError, match="'all-points', 'enclosed', 'one-region'"):
         cx.choose_radius("triangle-count", triangles=3)
     with pytest.raises(DimensionError, match="in space alone"):
         am.AlphaComplex(grid(2, 2, 1)[:, :2]).choose_radius("tetrahedron-count", tetrahedra=3)

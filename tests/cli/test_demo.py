@@ -22,7 +22,7 @@ def test_demo_writes_a_gallery(folder):
         assert (np.asarray(mask) == am.demo_mask("annulus")).all()
     assert len(am.read_points("g/bars-cloud.csv")) == 300
     assert "1 component, 1 hole" in page
-    assert page.count("At radius ") == page.count("<section") == 2
+    assert page.count(" triangles and ") == page.count("<section") == 2
 
 
 def test_demo_can_be_run_again(folder):
