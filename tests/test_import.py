@@ -19,6 +19,7 @@ from alphamesh.errors import MissingLibraryError
 
 OPTIONAL = (
     "PIL",
+    "anywidget",
     "click",
     "geopandas",
     "matplotlib",

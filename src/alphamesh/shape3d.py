@@ -83,6 +83,12 @@ class AlphaShape3D(SolidShape):
         """Vertices without any edge, ``(k,)`` int32."""
         return chosen(self._vertices, ~reached(self.filtration.joined_from, self.radius))
 
+    def _repr_html_(self) -> str:
+        """Return what notebooks show: a small picture and the facts."""
+        from alphamesh.view.card import shape_card
+
+        return shape_card(self)
+
     def __repr__(self) -> str:
         counts = self.counts
         kinds = ["tetrahedra"] + [

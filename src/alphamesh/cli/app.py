@@ -17,6 +17,7 @@ COMMANDS = {
     "info": "tell what is in a file of points, an image or a mesh",
     "demo": "write a gallery of demo shapes",
     "plot": "draw a picture of a cloud, its cells or its complex",
+    "view": "write a page that shows the complex live under a slider",
     "animate": "make a film of the growing radius",
     "radius": "choose a radius, and say why",
     "polygons": "write the outlines of shapes, holes and all",

@@ -19,6 +19,7 @@ __all__ = [
     "FormatType",
     "GeoFile",
     "MeshFile",
+    "PageFile",
     "PointsFile",
     "TableFile",
 ]
@@ -102,6 +103,16 @@ class FilmFile(File):
         from alphamesh.film.film import FILM_FORMATS
 
         return FILM_FORMATS
+
+
+class PageFile(File):
+    """A page for web browsers to write."""
+
+    what = "page"
+
+    def formats(self) -> tuple[str, ...]:
+        """Return the extensions of pages."""
+        return (".html", ".htm")
 
 
 class TableFile(File):

@@ -1,0 +1,160 @@
+// The picture in space, drawn by the GPU.
+
+import { compile, vertexArray } from "./gl.js";
+import { spacingOf } from "./scene2.js";
+import * as shaders from "./shaders3.js";
+import { SurfacePicker } from "./surface3.js";
+import { rgb } from "./theme.js";
+
+/**
+ * @typedef {import("./gl.js").GL} GL
+ * @typedef {import("./gl.js").Program} Program
+ * @typedef {import("./space.js").SpaceComplex} SpaceComplex
+ * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./camera3.js").Camera3} Camera3
+ * @typedef {{normal: number[], offset: number}} Cut
+ * @typedef {{facts: Facts, camera: Camera3, layers: Record<string, boolean>, palette: any,
+ *            ratio: number, cut: Cut | null}} State
+ */
+
+/** Where light comes from: right, up, towards the viewer. */
+const LIGHT = [-0.35, 0.5, 0.79];
+
+/** Draws a complex in space. */
+export class Scene3 {
+  /**
+   * @param {GL} gl
+   * @param {SpaceComplex} complex
+   */
+  constructor(gl, complex) {
+    this.gl = gl;
+    this.complex = complex;
+    this.spacing = spacingOf(complex);
+    this.surface = compile(gl, shaders.SURFACE_VERTEX, shaders.SURFACE_FRAGMENT);
+    this.line = compile(gl, shaders.LINE_VERTEX, shaders.LINE_FRAGMENT);
+    this.ball = compile(gl, shaders.BALL_VERTEX, shaders.BALL_FRAGMENT);
+    this.picker = new SurfacePicker(complex);
+    this.pickedAt = "";
+    /** What the last picture was made of. */
+    this.drawn = { triangles: 0, singular: 0, lone: 0, points: 0 };
+    const place = { place: 0, size: 3, offset: 0 };
+    this.triangles = vertexArray(gl, new Float32Array(0), 12, [place]);
+    this.triangleBuffer = gl.getParameter(gl.ARRAY_BUFFER_BINDING);
+    this.lines = vertexArray(gl, new Float32Array(0), 12, [place]);
+    this.lineBuffer = gl.getParameter(gl.ARRAY_BUFFER_BINDING);
+    const records = new Uint32Array(4 * complex.vertexCount);
+    const floats = new Float32Array(records.buffer);
+    for (let v = 0; v < complex.vertexCount; v++) {
+      floats.set(complex.positions.subarray(3 * v, 3 * v + 3), 4 * v);
+      records[4 * v + 3] = complex.joined[v];
+    }
+    const joined = { place: 1, size: 1, offset: 12, whole: true };
+    this.points = vertexArray(gl, records, 16, [place, joined]);
+  }
+
+  /** Pick what is there, unless it is what was there the last time. @param {Facts} facts */
+  pick(facts) {
+    const { gl, picker } = this;
+    const at = facts.present.join();
+    if (at === this.pickedAt) return;
+    this.pickedAt = at;
+    picker.pick(facts);
+    for (const [buffer, data] of [
+      [this.triangleBuffer, picker.corners],
+      [this.lineBuffer, picker.ends],
+    ]) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
+    }
+  }
+
+  /** @param {State} state */
+  draw(state) {
+    const { gl, picker } = this;
+    const { facts, layers, palette } = state;
+    gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
+    gl.clearColor(...rgb(palette.background), 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LESS);
+    gl.disable(gl.BLEND);
+    this.pick(facts);
+    this.drawn = { triangles: 0, singular: 0, lone: 0, points: 0 };
+    // Lines and points lie on the surface: it is moved back by a hair.
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 1);
+    this._drawSurface(state);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
+    if (layers.lone) {
+      this._use(this.line, state);
+      gl.uniform3fv(this.line.at.uColour, rgb(palette.isolated));
+      gl.bindVertexArray(this.lines);
+      gl.drawArrays(gl.LINES, 0, 2 * picker.lone);
+      this.drawn.lone = picker.lone;
+    }
+    if (layers.points) this._drawPoints(state);
+    gl.bindVertexArray(null);
+  }
+
+  /**
+   * @param {Program} program
+   * @param {State} state
+   */
+  _use({ program, at }, { camera, cut }) {
+    const { gl } = this;
+    gl.useProgram(program);
+    gl.uniformMatrix4fv(at.uMatrix, false, camera.matrix);
+    if (cut) gl.uniform4f(at.uCut, cut.normal[0], cut.normal[1], cut.normal[2], cut.offset);
+    else gl.uniform4f(at.uCut, 0, 0, 0, 1);
+  }
+
+  /** @param {State} state */
+  _drawSurface(state) {
+    const { gl, picker, surface } = this;
+    const { camera, layers, palette, ratio } = state;
+    const [right, up, back] = camera.axes;
+    const light = [0, 1, 2].map((i) => LIGHT[0] * right[i] + LIGHT[1] * up[i] + LIGHT[2] * back[i]);
+    this._use(surface, state);
+    gl.uniform3fv(surface.at.uLight, light);
+    gl.uniform3fv(surface.at.uBack, back);
+    gl.uniform3fv(surface.at.uInside, rgb(palette.inside));
+    gl.uniform3fv(surface.at.uWire, rgb(palette.boundary));
+    const apart = this.spacing * camera.pixelsAt(camera.distance);
+    gl.uniform1f(surface.at.uWidth, layers.wire && apart > 4 ? Math.min(1, apart / 14) * ratio : 0);
+    gl.bindVertexArray(this.triangles);
+    if (layers.boundary) {
+      // What is closed shows its inside only where it is cut; thin parts would shine through.
+      if (!state.cut) gl.enable(gl.CULL_FACE);
+      gl.uniform3fv(surface.at.uOutside, rgb(palette.surface));
+      gl.uniform1i(surface.at.uBothSides, 0);
+      gl.drawArrays(gl.TRIANGLES, 0, 3 * picker.boundary);
+      gl.disable(gl.CULL_FACE);
+      this.drawn.triangles = picker.boundary;
+    }
+    if (layers.singular) {
+      gl.uniform3fv(surface.at.uOutside, rgb(palette.sheet));
+      gl.uniform1i(surface.at.uBothSides, 1);
+      gl.drawArrays(gl.TRIANGLES, 3 * picker.boundary, 3 * picker.singular);
+      this.drawn.singular = picker.singular;
+    }
+  }
+
+  /** @param {State} state */
+  _drawPoints(state) {
+    const { gl, complex, ball } = this;
+    const { camera, palette, facts, ratio } = state;
+    this._use(ball, state);
+    gl.uniform1ui(ball.at.uEdges, facts.present[1]);
+    gl.uniform3fv(ball.at.uColours, [palette.points, palette.isolated].flatMap(rgb));
+    gl.uniform3fv(ball.at.uLightSeen, LIGHT);
+    const pixels = camera.pixelsAt(1) * ratio;
+    gl.uniform1f(ball.at.uPixels, pixels);
+    const size = 0.22 * this.spacing;
+    // Behind a cut, points inside would seem to stand in front of it.
+    const seen = !state.cut && size * camera.pixelsAt(camera.distance) > 1.2;
+    gl.uniform2f(ball.at.uSizes, seen ? size : 0, 1.4 * size);
+    gl.bindVertexArray(this.points);
+    gl.drawArrays(gl.POINTS, 0, complex.vertexCount);
+    this.drawn.points = complex.vertexCount;
+  }
+}

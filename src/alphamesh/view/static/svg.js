@@ -1,0 +1,198 @@
+// The picture as SVG: what is seen, as paths.
+
+import { cellPieces, PIECE } from "./cells.js";
+import { NEVER } from "./complex.js";
+import { lineWidth, pointSizes, showsEdges, spacingOf } from "./scene2.js";
+
+/**
+ * @typedef {import("./plane.js").PlaneComplex} PlaneComplex
+ * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./camera.js").Camera} Camera
+ */
+
+/**
+ * Return the picture as the text of an SVG file.
+ * @param {PlaneComplex} complex
+ * @param {{facts: Facts, camera: Camera, layers: Record<string, boolean>, palette: any,
+ *          title: string}} state
+ * @returns {string}
+ */
+export function svgOf(complex, { facts, camera, layers, palette, title }) {
+  const { width, height } = camera;
+  const draw = new Drawing(complex, camera);
+  const spacing = spacingOf(complex) * camera.scale;
+  const radius = (facts.radius / complex.meta.scale) * camera.scale;
+  const parts = [];
+  if (layers.cells || layers.discs) parts.push(draw.cells(facts, layers, palette, spacing));
+  if (layers.discs && radius > 0) {
+    const style = `fill="none" stroke="${palette.circles}" stroke-width="0.8"`;
+    parts.push(`<g ${style}>${draw.circles(radius)}</g>`);
+  }
+  if (layers.triangles) {
+    const opacity = layers.cells || layers.discs ? 0.72 : 1;
+    const path = draw.triangles(facts.present[2]);
+    parts.push(`<path fill="${palette.triangles}" fill-opacity="${opacity}" d="${path}"/>`);
+  }
+  const wide = short(lineWidth(spacing));
+  /** @type {[boolean, number, string, string][]} */
+  const lines = [
+    [layers.edges && showsEdges(spacing), 2, palette.interior, "0.8"],
+    [layers.boundary, 1, palette.boundary, wide],
+    [layers.singular, 0, palette.singular, wide],
+  ];
+  for (const [shown, kind, colour, width] of lines) {
+    if (!shown) continue;
+    const style = `fill="none" stroke-linecap="round" stroke="${colour}"`;
+    parts.push(`<path ${style} stroke-width="${width}" d="${draw.edges(facts, kind)}"/>`);
+  }
+  if (layers.points) {
+    const [joined, isolated] = pointSizes(spacing);
+    const dots = joined ? draw.dots(facts, joined / 2, false) : "";
+    parts.push(`<g fill="${palette.points}">${dots}</g>`);
+    parts.push(`<g fill="${palette.isolated}">${draw.dots(facts, isolated / 2, true)}</g>`);
+  }
+  return [
+    `<svg xmlns="http://www.w3.org/2000/svg" width="${short(width)}" height="${short(height)}"`,
+    ` viewBox="0 0 ${short(width)} ${short(height)}">`,
+    `<title>${escaped(title)}</title>`,
+    `<rect width="100%" height="100%" fill="${palette.background}"/>`,
+    ...parts,
+    "</svg>\n",
+  ].join("\n");
+}
+
+/** Places on paper, and paths of what can be seen there. */
+class Drawing {
+  /**
+   * @param {PlaneComplex} complex
+   * @param {Camera} camera
+   */
+  constructor(complex, camera) {
+    this.complex = complex;
+    this.camera = camera;
+  }
+
+  /** @param {number} v */
+  place(v) {
+    const p = this.complex.positions;
+    return this.camera.toScreen(p[2 * v], p[2 * v + 1]);
+  }
+
+  /**
+   * Return a path through vertices, or nothing if all of it is out of sight.
+   * @param {number[]} vertices
+   * @param {string} end
+   */
+  path(vertices, end) {
+    const { width, height } = this.camera;
+    const places = vertices.map((v) => this.place(v));
+    const [xs, ys] = [places.map((q) => q[0]), places.map((q) => q[1])];
+    if (Math.max(...xs) < 0 || Math.min(...xs) > width) return "";
+    if (Math.max(...ys) < 0 || Math.min(...ys) > height) return "";
+    return `M${places.map((q) => `${short(q[0])} ${short(q[1])}`).join("L")}${end}`;
+  }
+
+  /** @param {number} count */
+  triangles(count) {
+    const { triangles } = this.complex;
+    let text = "";
+    for (let t = 0; t < 3 * count; t += 3) {
+      text += this.path([triangles[t], triangles[t + 1], triangles[t + 2]], "Z");
+    }
+    return text;
+  }
+
+  /**
+   * @param {Facts} facts
+   * @param {number} kind 0 singular, 1 boundary, 2 interior
+   */
+  edges(facts, kind) {
+    const { edges, cofaces } = this.complex;
+    const [, count, triangles] = facts.present;
+    let text = "";
+    for (let e = 0; e < count; e++) {
+      const entered = cofaces.first[e] < triangles ? 1 : 0;
+      const inside = cofaces.last[e] !== NEVER && cofaces.last[e] < triangles ? 1 : 0;
+      if (entered + inside === kind) text += this.path([edges[2 * e], edges[2 * e + 1]], "");
+    }
+    return text;
+  }
+
+  /**
+   * @param {Facts} facts
+   * @param {number} size
+   * @param {boolean} isolated
+   */
+  dots(facts, size, isolated) {
+    const { joined } = this.complex;
+    return this.circles(size, (v) => joined[v] >= facts.present[1] === isolated);
+  }
+
+  /**
+   * @param {number} radius
+   * @param {(v: number) => boolean} wanted
+   */
+  circles(radius, wanted = () => true) {
+    const { width, height } = this.camera;
+    let text = "";
+    for (let v = 0; v < this.complex.vertexCount; v++) {
+      if (!wanted(v)) continue;
+      const [x, y] = this.place(v);
+      if (x < -radius || y < -radius || x > width + radius || y > height + radius) continue;
+      text += `<circle cx="${short(x)}" cy="${short(y)}" r="${short(radius)}"/>`;
+    }
+    return text;
+  }
+
+  /**
+   * Return each disc cut by its Voronoi cell.
+   * @param {Facts} facts
+   * @param {Record<string, boolean>} layers
+   * @param {any} palette
+   * @param {number} spacing
+   */
+  cells(facts, layers, palette, spacing) {
+    const { complex, camera } = this;
+    const radius = facts.radius / complex.meta.scale;
+    const far = Math.max(64, 8 * radius);
+    const pieces = cellPieces(complex, far);
+    let [clips, discs] = ["", ""];
+    /** @type {Map<string, {colour: number, x: number, y: number, corners: number[][]}>} */
+    const cells = new Map();
+    for (let i = 0; i < pieces.length; i += PIECE) {
+      for (const side of [0, 1]) {
+        const [x, y] = [pieces[i + 2 * side], pieces[i + 2 * side + 1]];
+        const key = `${x},${y}`;
+        const cell = cells.get(key) ?? { colour: pieces[i + 8 + side], x, y, corners: [] };
+        cells.set(key, cell);
+        cell.corners.push([pieces[i + 4], pieces[i + 5]], [pieces[i + 6], pieces[i + 7]]);
+      }
+    }
+    let id = 0;
+    const shown = radius * camera.scale;
+    for (const { colour, x, y, corners } of cells.values()) {
+      const [sx, sy] = camera.toScreen(x, y);
+      if (sx < -shown || sy < -shown) continue;
+      if (sx > camera.width + shown || sy > camera.height + shown) continue;
+      corners.sort((a, b) => Math.atan2(a[1] - y, a[0] - x) - Math.atan2(b[1] - y, b[0] - x));
+      const outline = corners.map(([cx, cy]) => camera.toScreen(cx, cy).map(short).join(","));
+      clips += `<clipPath id="c${id}"><polygon points="${outline.join(" ")}"/></clipPath>`;
+      const fill = layers.cells ? palette.cells[colour] : palette.union;
+      const at = `cx="${short(sx)}" cy="${short(sy)}" r="${short(shown)}"`;
+      discs += `<circle ${at} fill="${fill}" clip-path="url(#c${id++})"/>`;
+    }
+    const line = Math.min(1.3, 0.07 * spacing);
+    const style = layers.cells ? `stroke="${palette.arcs}" stroke-width="${short(line)}"` : "";
+    return `<defs>${clips}</defs><g ${style}>${discs}</g>`;
+  }
+}
+
+/** @param {number} value */
+function short(value) {
+  return String(Math.round(value * 100) / 100);
+}
+
+/** @param {string} text */
+function escaped(text) {
+  return text.replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);
+}

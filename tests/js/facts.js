@@ -1,0 +1,46 @@
+// Print what the view says of a packed complex: node facts.js FILE RADIUS...
+
+import { readFileSync } from "node:fs";
+
+import { cellPieces, PIECE } from "../../src/alphamesh/view/static/cells.js";
+import { inflate, unpack } from "../../src/alphamesh/view/static/data.js";
+import { complexOf } from "../../src/alphamesh/view/static/models.js";
+import { BettiCurve, changesOf } from "../../src/alphamesh/view/static/steps.js";
+
+const [file, ...radii] = process.argv.slice(2);
+const payload = unpack(await inflate(new Uint8Array(readFileSync(file))));
+const complex = complexOf(payload);
+const curves = complex.diagrams.map((diagram) => new BettiCurve(diagram));
+
+const told = {
+  meta: payload.meta,
+  positions: [...complex.positions],
+  rows: Array.from({ length: complex.vertexCount }, (_, v) => complex.rowOf(v)),
+  triangles: [...complex.triangles],
+  facts: radii.map((text) => {
+    const radius = Number(text);
+    return { ...complex.at(radius), curves: curves.map((curve) => curve.at(radius)) };
+  }),
+  changes: [...changesOf(curves)],
+  cells: payload.meta.ambient === 2 ? areas() : null,
+};
+console.log(JSON.stringify(told));
+
+/** Areas of the Voronoi cells, those that go on for ever cut off somewhere. */
+function areas() {
+  const pieces = cellPieces(complex, 64);
+  const places = new Map();
+  for (let v = 0; v < complex.vertexCount; v++) {
+    places.set(`${complex.positions[2 * v]},${complex.positions[2 * v + 1]}`, v);
+  }
+  const found = new Array(complex.vertexCount).fill(0);
+  for (let i = 0; i < pieces.length; i += PIECE) {
+    const [ux, uy, vx, vy, ax, ay, bx, by] = pieces.subarray(i, i + 8);
+    const alone = ux === vx && uy === vy;
+    for (const [x, y] of alone ? [[ux, uy]] : [[ux, uy], [vx, vy]]) {
+      const area = Math.abs((ax - x) * (by - y) - (bx - x) * (ay - y)) / 2;
+      found[places.get(`${x},${y}`)] += area;
+    }
+  }
+  return found;
+}

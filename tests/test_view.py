@@ -1,0 +1,392 @@
+"""The page that shows a complex live: its data, its text, its command."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+import xml.etree.ElementTree as ET
+import zlib
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+import alphamesh as am
+from alphamesh.errors import FileWriteError, MissingLibraryError, ParameterError
+from alphamesh.view import page_text, payload
+from alphamesh.view.bundle import bundle, style
+from alphamesh.view.packing import pack, rising_bits
+from node import SCRIPTS, STATIC, run_node
+from strategies import clouds
+
+GRID = np.stack(np.meshgrid(np.arange(5.0), np.arange(4.0)), axis=-1).reshape(-1, 2)
+CASES = {
+    "random": np.random.default_rng(3).random((300, 2)) * [3, 1] + [1e4, -7],
+    "shape": am.demo_cloud("target", 500, seed=2),
+    "grid": GRID,
+    "duplicates": np.concatenate([GRID, GRID[::-1], GRID[3:5]]),
+    "line": np.arange(7.0)[:, None] * [1, 2],
+    "two": np.array([[0.0, 0], [3, 4]]),
+    "one": np.array([[5.0, 5]]),
+    "same": np.full((3, 2), 2.0),
+    "none": np.empty((0, 2)),
+    "tiny": np.random.default_rng(0).random((40, 2)) * 1e-140,
+    "large": np.random.default_rng(0).random((40, 2)) * 1e140,
+}
+
+
+def packed(cx, **options):
+    choice = cx.choose_radius() if len(cx.points) else None
+    return payload(cx.persistence(), choice, **options)
+
+
+def told(cx, radii, folder):
+    """Return what the page would show, told by its own code."""
+    file = folder / "data.bin"
+    file.write_bytes(packed(cx))
+    return json.loads(run_node(SCRIPTS / "facts.js", file, *[repr(float(r)) for r in radii]))
+
+
+SPACE = {
+    "random": np.random.default_rng(4).random((150, 3)) * [1, 2, 3] + [5, -1, 1e3],
+    "grid": np.stack(np.meshgrid(*[np.arange(4.0)] * 3), axis=-1).reshape(-1, 3),
+    "duplicates": np.repeat(np.random.default_rng(5).random((12, 3)), 2, axis=0)[::-1],
+    "plane": np.column_stack((np.random.default_rng(6).random((30, 2)), np.zeros(30))),
+    "line": np.arange(5.0)[:, None] * [1, 2, 3],
+    "one": np.array([[5.0, 5, 5]]),
+    "none": np.empty((0, 3)),
+}
+
+
+def radii_of(cx):
+    """Return radii at, just below and between changes."""
+    changes = cx.critical_radii()
+    some = changes[:: max(1, len(changes) // 25)]
+    last = changes[-1:] * 2
+    return np.unique(np.concatenate((some, np.nextafter(some, 0)[1:], some * 1.01, last)))
+
+
+def numbers_of(facts):
+    """Return what has to agree to the last digit."""
+    vertices, edges, triangles = facts["present"]
+    return {
+        "vertices": vertices,
+        "edges": edges,
+        "triangles": triangles,
+        "singular_edges": facts["singularEdges"],
+        "regular_edges": facts["boundary"],
+        "interior_edges": facts["interior"],
+        "isolated_vertices": facts["isolated"],
+    }
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_page_counts_what_the_complex_holds(name, tmp_path):
+    cx = am.AlphaComplex(CASES[name])
+    radii = radii_of(cx)
+    shown = told(cx, radii, tmp_path)
+    assert len(shown["facts"]) == len(radii)
+    for radius, facts in zip(radii, shown["facts"], strict=True):
+        shape = cx.at(radius)
+        assert numbers_of(facts) == shape.counts
+        betti = cx.persistence().betti_numbers(radius).tolist()
+        assert facts["betti"] == betti
+        assert facts["curves"] == betti
+        assert facts["size"] == pytest.approx(shape.area, rel=1e-4, abs=1e-300)
+        assert facts["border"] == pytest.approx(shape.perimeter, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", SPACE)
+def test_the_page_counts_what_the_complex_holds_in_space(name, tmp_path):
+    cx = am.AlphaComplex(SPACE[name])
+    radii = radii_of(cx)
+    for radius, facts in zip(radii, told(cx, radii, tmp_path)["facts"], strict=True):
+        shape = cx.at(radius)
+        counts = shape.counts
+        kinds = ("vertices", "edges", "triangles", "tetrahedra")
+        assert facts["present"] == [counts[kind] for kind in kinds]
+        assert facts["singularTriangles"] == counts["singular_triangles"]
+        assert facts["boundary"] == counts["regular_triangles"]
+        assert facts["interior"] == counts["interior_triangles"]
+        assert facts["singularEdges"] == counts["isolated_edges"]
+        assert facts["isolated"] == counts["isolated_vertices"]
+        assert facts["betti"] == facts["curves"] == list(shape.betti)
+        assert facts["size"] == pytest.approx(shape.volume, rel=1e-3, abs=1e-12)
+        assert facts["border"] == pytest.approx(shape.surface_area, rel=1e-3)
+
+
+def test_the_surface_is_seen_from_outside(tmp_path):
+    cx = am.AlphaComplex(SPACE["random"])
+    shown = told(cx, [], tmp_path)
+    corners = np.array(shown["triangles"], dtype=int).reshape(-1, 3)
+    last = cx.at(np.inf).boundary_triangles
+    as_shown = {tuple(np.roll(row, -int(np.argmin(row)))) for row in corners.tolist()}
+    assert all(tuple(row) in as_shown for row in last.tolist())
+
+
+@pytest.mark.parametrize("name", ["random", "shape", "duplicates", "line"])
+def test_the_page_has_the_simplices_in_their_order(name, tmp_path):
+    cx = am.AlphaComplex(CASES[name])
+    shown = told(cx, [], tmp_path)
+    order = np.argsort(cx.radii[2], kind="stable")
+    rows = np.array(shown["rows"], dtype=int)
+    corners = rows[np.array(shown["triangles"], dtype=int)].reshape(-1, 3)
+    assert np.array_equal(corners, cx.simplices[2][order])
+    meta = shown["meta"]
+    places = np.array(shown["positions"]).reshape(-1, 2) * meta["scale"] + meta["centre"]
+    assert np.abs(places - cx.points[rows]).max() < 1e-6 * meta["scale"]
+    assert np.array_equal(shown["changes"], cx.persistence().betti_curve().radii[1:])
+
+
+def test_the_pieces_of_bounded_cells_are_the_cells(tmp_path):
+    cx = am.AlphaComplex(CASES["random"])
+    shown = told(cx, [], tmp_path)
+    bounded = cx.voronoi.bounded
+    assert bounded.sum() > 200
+    areas = np.array(shown["cells"]) * shown["meta"]["scale"] ** 2
+    small = bounded & (cx.voronoi.areas < 0.1)
+    assert areas[small] == pytest.approx(cx.voronoi.areas[small], rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["line", "two", "one"])
+def test_unbounded_cells_cover_the_plane_as_far_as_a_disc_reaches(name, tmp_path):
+    shown = told(am.AlphaComplex(CASES[name]), [], tmp_path)
+    assert sum(shown["cells"]) > np.pi * 64**2 * 0.9
+
+
+@given(clouds())
+@settings(max_examples=15)
+def test_packed_data_read_back_to_the_last_digit(points):
+    cx = am.AlphaComplex(points)
+    raw = zlib.decompress(packed(cx))
+    size = int.from_bytes(raw[:4], "little")
+    header = json.loads(raw[4 : 4 + size])
+    at = 4 + size
+    for block in header["arrays"]:
+        wide = 8 if block["type"] == "rising" else 4
+        planes = np.frombuffer(raw, np.uint8, wide * block["length"], at)
+        at += wide * block["length"]
+        if block["name"] == "edge_values":
+            bits = planes.reshape(wide, -1).T.copy().view(np.uint64).ravel()
+            assert np.array_equal(np.cumsum(bits).view(np.float64), np.sort(cx.radii[1]))
+    assert at == len(raw)
+
+
+def test_rising_bits_of_zeros_of_either_sign():
+    values = np.array([-0.0, 0.0, 5e-324, 1.0, 1.0, 1.7e308])
+    assert np.array_equal(np.cumsum(rising_bits(values)).view(np.float64), np.abs(values))
+    assert len(pack({"a": 1}, {})) > 0
+
+
+# The file
+
+
+@pytest.fixture(scope="module")
+def eight():
+    return am.AlphaComplex(am.demo_cloud("eight", 400, seed=1))
+
+
+def test_the_page_is_one_file_that_asks_for_nothing(eight, tmp_path):
+    eight.view(tmp_path / "page.html")
+    text = (tmp_path / "page.html").read_text("utf-8")
+    assert text.startswith("<!doctype html>")
+    assert text.count("</html>") == text.count("</main>") == 1
+    assert "default-src 'none'" in text
+    addresses = set(re.findall(r"[a-z]+://[^\s\"'`]+", text))
+    assert addresses <= {"http://www.w3.org/2000/svg"}
+    assert not re.findall(r"<(?:script|link|img|iframe)[^>]*(?:src|href)=\"(?!data:,)", text)
+    assert [file.name for file in tmp_path.iterdir()] == ["page.html"]
+
+
+def test_the_page_starts_where_it_is_told(eight):
+    def meta(**options):
+        raw = zlib.decompress(packed(eight, **options))
+        return json.loads(raw[4 : 4 + int.from_bytes(raw[:4], "little")])["meta"]
+
+    choice = eight.choose_radius()
+    assert meta()["radius"] == meta()["choice"]["radius"] == choice.radius
+    assert (meta()["choice"]["low"], meta()["choice"]["high"]) == choice.interval
+    assert meta(radius=7)["radius"] == 7
+    assert meta(radius=np.inf)["radius"] == eight.critical_radii()[-1]
+    assert meta(title="Two <rings>")["title"] == "Two <rings>"
+
+
+def test_a_title_cannot_break_the_page(eight):
+    text = page_text(eight.persistence(), None, title="</script><b>&")
+    assert "<title>&lt;/script&gt;&lt;b&gt;&amp;</title>" in text
+    assert text.count("</script>") == 2
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"radius": -1}, "0 or more"),
+        ({"radius": "wide"}, "must be a number"),
+        ({"title": 3}, "title must be text"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_before_a_file_is_there(
+    eight, tmp_path, options, message
+):
+    with pytest.raises(ParameterError, match=message):
+        eight.view(tmp_path / "page.html", **options)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_page_that_cannot_be_written_says_why(eight, tmp_path):
+    with pytest.raises(FileWriteError, match="does not exist"):
+        eight.view(tmp_path / "nowhere" / "page.html")
+
+
+def test_a_hundred_thousand_points_weigh_less_than_15_mb(tmp_path):
+    points = np.random.default_rng(1).random((100_000, 2))
+    am.AlphaComplex(points).view(tmp_path / "page.html")
+    assert (tmp_path / "page.html").stat().st_size < 15e6
+
+
+# The script
+
+
+@pytest.mark.parametrize("entry", ["page.js", "widget.js"])
+def test_the_bundle_is_a_script_without_imports(entry, tmp_path):
+    text = bundle(entry)
+    assert not re.search(r"^\s*(import|export)\b", text, re.MULTILINE)
+    assert "</script" not in text
+    assert text.index('modules["complex.js"]') < text.index('modules["plane.js"]')
+    file = tmp_path / "bundle.cjs"
+    file.write_text(f'{text}\nconsole.log(Object.keys(modules["{entry}"]).join());\n')
+    assert run_node(file).strip() == {"page.js": "main", "widget.js": "render"}[entry]
+
+
+def test_the_style_sheet_stays_within_the_view():
+    text = re.sub(r"@container[^{]*\{|::backdrop", "", style())
+    selectors = re.findall(r"(?:^|\})\s*([^{}]+?)\s*\{", text)
+    assert len(selectors) > 50
+    for selector in selectors:
+        assert all(part.strip().startswith(".alphamesh-view") for part in split(selector))
+
+
+def split(selector):
+    """Return the selectors of a list; commas within :is() are not between them."""
+    return re.split(r",(?![^()]*\))", selector)
+
+
+def test_scripts_are_all_used_and_small():
+    used = bundle("page.js") + bundle("widget.js")
+    for file in STATIC.glob("*.js"):
+        assert f'modules["{file.name}"] = ' in used
+        assert len(file.read_text("utf-8").splitlines()) <= 400
+
+
+def test_units_of_the_scripts():
+    run_node("--test", SCRIPTS / "view.test.js")
+
+
+def test_types_of_the_scripts():
+    """TypeScript reads the types in the comments: ``npm install --prefix tests/js``."""
+    compiler = SCRIPTS / "node_modules" / "typescript" / "bin" / "tsc"
+    if not compiler.exists():
+        pytest.skip("typescript is not installed: npm install --prefix tests/js")
+    run_node(compiler, "--project", SCRIPTS)
+
+
+# The widget and what notebooks show
+
+
+def test_the_widget_shares_its_radius():
+    pytest.importorskip("anywidget")
+    cx = am.AlphaComplex(CASES["shape"])
+    widget = cx.widget(height=300)
+    assert widget.radius == cx.choose_radius().radius
+    assert widget.height == "300px"
+    assert cx.widget(7).radius == 7
+    seen = []
+    widget.observe(lambda change: seen.append(change["new"]), "radius")
+    widget.radius = 3
+    assert seen == [3.0]
+    with pytest.raises(ParameterError, match="0 or more"):
+        widget.radius = -1
+    assert widget.radius == 3
+    with pytest.raises(ParameterError, match="height"):
+        cx.widget(height=20)
+
+
+def test_the_widget_without_anywidget_says_what_to_install(monkeypatch):
+    from alphamesh.view.widget import _widget_class
+
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    _widget_class.cache_clear()
+    with pytest.raises(MissingLibraryError, match=re.escape('"alphamesh[widget]"')):
+        am.AlphaComplex(CASES["two"]).widget()
+
+
+@pytest.mark.parametrize("points", [*CASES.values(), *SPACE.values()])
+def test_notebooks_show_every_complex_and_shape(points):
+    cx = am.AlphaComplex(points)
+    for text in (cx._repr_html_(), cx.at(0)._repr_html_(), cx.at(np.inf)._repr_html_()):
+        root = ET.fromstring(text)
+        told = {row[0].text: row[1].text for row in root.iter("tr")}
+        assert (root.find("{*}svg") is not None) == (len(points) > 0)
+        assert (
+            not set("".join(root.itertext()).split()) & {"nan", "inf", "None"}
+            or "inf" in told["radius"]
+        )
+
+
+def test_notebooks_show_the_facts():
+    cx = am.AlphaComplex(CASES["shape"])
+    shape = cx.at(8.0)
+    root = ET.fromstring(shape._repr_html_())
+    told = {row[0].text: row[1].text for row in root.iter("tr")}
+    assert told["triangles"] == f"{len(shape.triangles):,}"
+    assert told["area"] == f"{shape.area:.6g}"
+    filled = root.find("{*}svg/{*}path").get("d")
+    assert filled.count("M") == filled.count("Z") == len(shape.rings)
+    assert ET.fromstring(cx._repr_html_()).find(".//strong").text == "AlphaComplex"
+
+
+def test_huge_clouds_are_told_of_without_a_picture():
+    cx = am.AlphaComplex(np.random.default_rng(0).random((60_000, 2)))
+    assert len(cx._repr_html_()) < 1000
+    assert "<svg" not in cx.at(0.004)._repr_html_()
+
+
+# The command
+
+
+def run(*arguments):
+    pytest.importorskip("click")
+    pytest.importorskip("rich")
+    from click.testing import CliRunner
+
+    from alphamesh.cli.app import app
+
+    return CliRunner().invoke(app, ["view", *arguments], prog_name="alphamesh")
+
+
+def test_the_command_writes_a_page(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = run("demo:eight", "-n", "200", "--title", "An eight", "-o", "page.html", "--json")
+    assert done.exit_code == 0, done.output
+    facts = json.loads(done.stdout)
+    assert facts["rule"] == "topology"
+    assert [file["path"] for file in facts["files"]] == ["page.html"]
+    assert "<title>An eight</title>" in (tmp_path / "page.html").read_text("utf-8")
+
+
+def test_the_command_shows_the_page_when_asked(tmp_path, monkeypatch):
+    pytest.importorskip("click")
+    monkeypatch.chdir(tmp_path)
+    opened = []
+    monkeypatch.setattr("click.launch", opened.append)
+    done = run("demo:disc", "-n", "50", "-r", "20", "-o", "page.html", "--open")
+    assert done.exit_code == 0, done.output
+    assert opened == [(tmp_path / "page.html").resolve().as_uri()]
+
+
+def test_the_command_wants_a_page(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert ".html" in run("demo:disc", "-o", "page.png").output
+    assert "Missing option" in run("demo:disc").output
+    assert list(tmp_path.iterdir()) == []
