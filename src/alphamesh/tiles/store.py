@@ -103,10 +103,10 @@ class Store:
         """Return rows and points of a tile and its halo, ascending by row."""
         rows, points = [np.empty(0, dtype=np.int64)], [np.empty((0, dimension))]
         for chunk in range(chunks):
-            offsets = np.load(self._chunk(chunk, "offsets"), allow_pickle=False)
-            part = slice(*offsets[tile : tile + 2].tolist())
-            rows.append(self._slice(chunk, "rows", part))
-            points.append(self._slice(chunk, "points", part))
+            part = slice(*self._slice(chunk, "offsets", slice(tile, tile + 2)).tolist())
+            if part.start < part.stop:
+                rows.append(self._slice(chunk, "rows", part))
+                points.append(self._slice(chunk, "points", part))
         return np.concatenate(rows), np.concatenate(points)
 
     def _slice(self, chunk: int, name: str, part: slice) -> Any:
