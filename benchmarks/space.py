@@ -1,7 +1,7 @@
-"""``python -m benchmarks.space``: clouds in space, beside shull, gudhi and diode.
+"""``python -m benchmarks.space``: clouds in space, beside shull, CGAL, gudhi and diode.
 
 Ours makes the triangulation and the values of all simplices, as gudhi and diode do; shull
-the bare triangulation, in two ways. In each table the contestants take turns; those that are
+(in two ways) and CGAL, which is compiled where its headers are, the bare triangulation. In each table the contestants take turns; those that are
 not installed, or are expected to take too long, are left out with a word. Ends with the
 promised ratios, pass or fail.
 """
@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks import isolated
+from benchmarks.cgal import cgal_delaunay3
 from benchmarks.clouds import Points
 from benchmarks.jobs import JOBS, Run, space
 from benchmarks.timing import Rounds, forecast, interleave
@@ -108,6 +109,7 @@ def _contestants(threads: int) -> Iterator[tuple[str, Run]]:
     peers: dict[str, Callable[[], Run]] = {
         "shull": JOBS["shull"].load,
         "shull parallel": JOBS["shull-parallel"].load,
+        "CGAL": _cgal,
         "diode": JOBS["diode"].load,
         "gudhi safe": partial(_gudhi, "safe"),
         "gudhi exact": partial(_gudhi, "exact"),
@@ -117,6 +119,11 @@ def _contestants(threads: int) -> Iterator[tuple[str, Run]]:
             yield name, load()
         except ImportError as error:
             print(f"left out: {name}: {error}")
+
+
+def _cgal() -> Run:
+    cgal_delaunay3(np.zeros((1, 3)))  # compiled now, not in the first turn
+    return cgal_delaunay3
 
 
 def _gudhi(precision: str) -> Run:
@@ -176,6 +183,9 @@ def _criteria(
     shull = min((large[name] for name in _SHULL if name in large), default=None)
     yield Criterion(
         f"all values over the better bare shull, {max(sizes):,}", _ratio(ours, shull), 0.45
+    )
+    yield Criterion(
+        f"all values over bare CGAL, {max(sizes):,}", _ratio(ours, large.get("CGAL")), 0.75
     )
     yield Criterion(
         "bare: 1 thread over several", _ratio(large.get(_BARE_ONE), large.get(_BARE)), 1.5, True
