@@ -1,9 +1,9 @@
 """``python -m benchmarks.space``: clouds in space, beside shull, CGAL, gudhi and diode.
 
 Ours makes the triangulation and the values of all simplices, as gudhi and diode do; shull
-(in two ways) and CGAL, which is compiled where its headers are, the bare triangulation. In each table the contestants take turns; those that are
-not installed, or are expected to take too long, are left out with a word. Ends with the
-promised ratios, pass or fail.
+(in two ways) and CGAL, which is compiled where its headers are, the bare triangulation. In
+each table the contestants take turns; those that are not installed, or are expected to take
+too long, are left out with a word. Ends with the promised ratios, pass or fail.
 """
 
 from __future__ import annotations
