@@ -10,7 +10,8 @@ import click
 import numpy as np
 
 from alphamesh.cli.command import Command, json_option, quiet_option, threads_option
-from alphamesh.cli.inputs import InputOptions, demo_shape, load, table_options
+from alphamesh.cli.demos import demo_shape, demo_solid
+from alphamesh.cli.inputs import InputOptions, load, table_options
 from alphamesh.cli.kinds import DEMO, IMAGE, MESH, POINTS, holds, ply_elements
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN, from_standard_input
