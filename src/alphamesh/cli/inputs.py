@@ -114,7 +114,8 @@ _SAMPLING_OPTIONS: dict[str, dict[str, Any]] = {
     "count": {
         "type": click.IntRange(min=1),
         "metavar": "N",
-        "help": f"Draw so many points from an image or a demo shape.  [default: {_DEFAULT_COUNT}]",
+        "help": "Draw so many points from an image or a demo shape.  "
+        f"[default: {_DEFAULT_COUNT}]",
     },
     "threshold": {
         "type": float,

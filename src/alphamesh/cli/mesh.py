@@ -24,7 +24,13 @@ from alphamesh.cli.command import Command, setting
 from alphamesh.cli.files import MeshFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.solids import Solid, refuse_solid_options, solid_at, solid_options
+from alphamesh.cli.solids import (
+    Solid,
+    refuse_solid_options,
+    solid_at,
+    solid_options,
+    surface_option,
+)
 from alphamesh.cli.summary import area_text, length_text
 from alphamesh.cli.types import SourceType
 
@@ -42,7 +48,7 @@ _EXAMPLES = (
     "alphamesh mesh trees.csv --columns easting,northing --radius 25 --units m -o mesh.vtu",
     "alphamesh mesh points.csv --radius topology:holes=2 -o mesh.obj",
     "alphamesh mesh scan.ply -o surface.stl --plot surface.png",
-    "alphamesh mesh cells.xyz --radius 0.5 --fill-voids all --largest 1 -o surface.ply -o solid.vtu",
+    "alphamesh mesh cells.xyz -r 0.5 --fill-voids all --largest 1 -o solid.vtu -o skin.ply",
     "alphamesh mesh a.csv b.csv scan.ply --output-dir meshes --to vtu --jobs 2 --keep-going",
     "alphamesh sample shape.png -o - | alphamesh mesh - -o - --to off",
 )
@@ -59,6 +65,7 @@ _EXAMPLES = (
     help="Keep other columns of INPUT as numbers of the vertices.",
 )
 @solid_options
+@surface_option
 @plot_option("Draw cloud, Delaunay triangulation and complex side by side.")
 @cloud_options
 def command(
@@ -70,12 +77,15 @@ def command(
     """Make a mesh from an image or a file of points, or meshes of many.
 
     INPUT is a mask image (points are drawn from its white pixels), a file of
-    points (CSV, TSV, TXT, XYZ, NPY, NPZ, Parquet, PLY), "-" for any of these on
-    standard input, or demo:NAME for a built-in shape such as demo:annulus.
-    Points with a third coordinate (a column z, as in PLY and XYZ files; PCD, LAS)
-    are in space: VTU, VTK, MSH and NPZ get tetrahedra, formats of surfaces the
-    closed surface around them, watertight and oriented. Without -o, the mesh is only described. With --output-dir, a mesh of every
-    INPUT is written there, under its name.
+    points (CSV, TSV, TXT, XYZ, NPY, NPZ, Parquet, PLY, PCD, LAS), "-" for any of
+    these on standard input, or demo:NAME for a built-in shape such as demo:annulus.
+
+    Points with a third coordinate, a column z, are in space. Then VTU, VTK, MSH and
+    NPZ get tetrahedra; formats of surfaces get the closed surface around them,
+    watertight and oriented. The scan of a surface is found out, closed and filled.
+
+    Without -o, the mesh is only described. With --output-dir, a mesh of every INPUT
+    is written there, under its name.
     """
     if options["folder"] is not None:
         if meshes or picture:

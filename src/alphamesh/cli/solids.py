@@ -23,7 +23,14 @@ if TYPE_CHECKING:
     from alphamesh.solid import SolidShape
     from alphamesh.surface import Surface
 
-__all__ = ["Solid", "found_scan", "refuse_solid_options", "solid_at", "solid_options"]
+__all__ = [
+    "Solid",
+    "found_scan",
+    "refuse_solid_options",
+    "solid_at",
+    "solid_options",
+    "surface_option",
+]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -32,45 +39,45 @@ _SHARES = (1.0, 0.99)
 # Genera and shells that are told one by one.
 _TOLD = 8
 
+_FLAGS = {
+    "scan": "--scan/--no-scan",
+    "fill_voids": "--fill-voids",
+    "min_volume": "--min-volume",
+    "largest": "--largest",
+    "surface": "--surface/--complex",
+}
 _OPTIONS = (
     click.option(
         "--scan/--no-scan",
         "scan",
         default=None,
-        help="The points are those of a scanned surface: close it (--radius enclosed) and "
+        help="Points in space are those of a scanned surface: close it (--radius enclosed) and "
         "fill it (--fill-voids all).  [default: found out]",
     ),
     click.option(
         "--fill-voids",
         type=SizeType(),
         metavar="VOLUME",
-        help="Fill voids of at most this volume, or all, before all else.  [default: none]",
+        help="In space: fill voids of at most this volume, or all, before all else.  "
+        "[default: none]",
     ),
     click.option(
         "--min-volume",
         type=SizeType(),
         metavar="VOLUME",
-        help="Drop regions of a smaller volume.  [default: none]",
+        help="In space: drop regions of a smaller volume.  [default: none]",
     ),
     click.option(
         "--largest",
         type=click.IntRange(0),
         metavar="N",
-        help="Keep the largest N regions.  [default: all]",
-    ),
-    click.option(
-        "--surface/--complex",
-        "surface",
-        default=None,
-        help="Formats of surfaces (PLY, OBJ, OFF, STL): write the closed surface of the "
-        "tetrahedra alone, or their boundary and all simplices beside them.  "
-        "[default: surface]",
+        help="In space: keep the largest N regions.  [default: all]",
     ),
 )
 
 
 def solid_options(command: Function) -> Function:
-    """Add the options that `solid_at` understands."""
+    """Add the options that `solid_at` understands, besides --radius and `surface_option`."""
     for option in reversed(_OPTIONS):
         command = option(command)
     return command
@@ -80,11 +87,25 @@ def refuse_solid_options(options: dict[str, Any], source: str) -> None:
     """Raise a usage error if `options` are given that are for points in space alone."""
     flags = {
         **{name: f"--{name.replace('_', '-')}" for name in ("fill_voids", "min_volume")},
-        **{"largest": "--largest", "scan": "--scan/--no-scan", "surface": "--surface/--complex"},
+        **{
+            "largest": "--largest",
+            "scan": "--scan/--no-scan",
+            "surface": "--surface/--complex",
+        },
     }
     for name, flag in flags.items():
-        if options[name] is not None:
+        if options.get(name) is not None:
             raise click.UsageError(f"{flag} has no meaning for {source!r}, points in the plane")
+
+
+surface_option = click.option(
+    "--surface/--complex",
+    "surface",
+    default=None,
+    help="Formats of surfaces (PLY, OBJ, OFF, STL) of points in space: write the closed "
+    "surface of the tetrahedra alone, or their boundary and all simplices beside them.  "
+    "[default: surface]",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +164,7 @@ class Solid:
             "region_volumes": shape.regions.volumes,
             "voids": len(shape.voids),
             "void_volumes": shape.voids.volumes,
-            "watertight": is_watertight(surface),
+            "watertight": len(surface.triangles) > 0 and surface.is_manifold,
             "shells": len(shells),
             "outer_shells": int(np.count_nonzero(shells.is_outer)),
             "genera": shells.genera,
@@ -167,15 +188,13 @@ class Solid:
         if len(surface.triangles):
             lines |= {
                 "Surface": f"{counted(len(surface.triangles), 'triangle')}, {_shells(surface)}",
-                "Watertight": "yes" if is_watertight(surface) else "no",
+                "Watertight": "yes" if surface.is_manifold else "no",
                 "Genus": _genera(surface),
             }
         return lines
 
 
-def solid_at(
-    job: Job, options: dict[str, Any], steps: Steps
-) -> tuple[RadiusChoice, Solid]:
+def solid_at(job: Job, options: dict[str, Any], steps: Steps) -> tuple[RadiusChoice, Solid]:
     """Return the radius that `options` ask for, and the solid there."""
     choice, is_scan = _chosen(job, options, steps)
     fill = options["fill_voids"]
@@ -189,9 +208,8 @@ def solid_at(
                 max_void_volume=fill, min_region_volume=least, keep_largest=most
             )
     # A cloud in one plane has no surface, but a complex of triangles.
-    as_complex = options["surface"] is False
-    if options["surface"] is None and job.complex.dimension < 3:
-        as_complex = True
+    wanted = options.get("surface")
+    as_complex = wanted is False or (wanted is None and job.complex.dimension < 3)
     with steps.step("Finding the surface"):
         shape.surface()
     return choice, Solid(shape, is_scan, as_complex)
@@ -229,16 +247,6 @@ def found_scan(filtration: Filtration3D) -> RadiusChoice | None:
         if shape.voids.volumes.sum() > shape.volume:
             return choice
     return None
-
-
-def is_watertight(surface: Surface) -> bool:
-    """Return whether it is closed, oriented and a manifold."""
-    return (
-        len(surface.triangles) > 0
-        and surface.is_closed
-        and surface.is_oriented
-        and surface.is_manifold
-    )
 
 
 def _shells(surface: Surface) -> str:
