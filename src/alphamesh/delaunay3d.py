@@ -10,13 +10,14 @@ import numpy as np
 
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels import BadCoordinates
-from alphamesh._kernels.space import alpha3, orient3, tetrahedron_triangles3
+from alphamesh._kernels.space import alpha3, delaunay3, orient3, tetrahedron_triangles3
 from alphamesh.hull3d import ConvexHull3D
+from alphamesh.location3d import as_queries_in_space, labels_at
 from alphamesh.measures import scaled_points
 from alphamesh.points import as_cloud, coordinate_error, merged_rows
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import FloatArray, IntArray
+    from alphamesh._arrays import BoolArray, FloatArray, IntArray
     from alphamesh._kernels import Progress
 
 __all__ = [
@@ -29,6 +30,8 @@ __all__ = [
 
 # Tetrahedra worked on at a time: their coordinates stay in the processor's cache.
 _CHUNK = 1 << 14
+# The corners of the triangle opposite to each corner of a tetrahedron.
+_OPPOSITE = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -45,10 +48,8 @@ class Delaunay3D(Record):
     neighbors : (T, 4) int32
         ``neighbors[t, j]`` is the tetrahedron on the other side of the triangle that lies
         opposite to ``tetrahedra[t, j]``; -1 on the convex hull.
-    triangles : (F, 3) int32
-        All triangles, ascending within a triangle.
-    edges : (E, 2) int32
-        All edges, ascending within an edge.
+    faces : tuple of (F, 3) int32 and (E, 2) int32, or None
+        `triangles` and `edges`, if these are known already.
 
     All arrays are read-only.
 
@@ -56,7 +57,8 @@ class Delaunay3D(Record):
     -----
     Where five or more points lie on one sphere, several triangulations are Delaunay. The
     one that a symbolic perturbation picks [1]_ depends on the coordinates alone: neither
-    on the order of the points nor on the number of threads.
+    on the order of the points nor on the number of threads. Triangles and edges come in
+    an order of their own, other than that of a complex.
 
     References
     ----------
@@ -68,8 +70,71 @@ class Delaunay3D(Record):
     representative: IntArray
     tetrahedra: IntArray
     neighbors: IntArray
-    triangles: IntArray
-    edges: IntArray
+    faces: tuple[IntArray, IntArray] | None = None
+
+    @cached_property
+    def triangles(self) -> IntArray:
+        """All triangles, ``(F, 3)`` int32, ascending within a triangle."""
+        if self.faces is not None:
+            return self.faces[0]
+        return read_only(self.tetrahedra[:, _OPPOSITE][self._counted_here])
+
+    @cached_property
+    def edges(self) -> IntArray:
+        """All edges, ``(E, 2)`` int32, ascending within an edge."""
+        if self.faces is not None:
+            return self.faces[1]
+        low, high = (self.triangles[:, ends].ravel() for ends in ([0, 0, 1], [1, 2, 2]))
+        keys = np.unique((low.astype(np.int64) << 32) | high)
+        return read_only(np.column_stack((keys >> 32, keys & 0xFFFFFFFF)).astype(np.int32))
+
+    @property
+    def _counted_here(self) -> BoolArray:
+        """Which corners lie opposite to a triangle without a tetrahedron of higher number."""
+        rows = np.arange(len(self.tetrahedra), dtype=np.int32)[:, np.newaxis]
+        here: BoolArray = self.neighbors < rows
+        return here
+
+    @cached_property
+    def _incidence(self) -> tuple[IntArray, IntArray]:
+        """The tetrahedra of each triangle, and the triangles of each tetrahedron."""
+        here = self._counted_here
+        rows = np.nonzero(here)[0].astype(np.int32)
+        cofaces = read_only(np.column_stack((rows, self.neighbors[here])))
+        triangles = read_only(self.tetrahedra[:, _OPPOSITE][here])
+        return cofaces, tetrahedron_triangles3(self.tetrahedra, triangles, cofaces)
+
+    def find(self, queries: Any, *, threads: int | None = None) -> IntArray:
+        """Return the tetrahedron that each query lies in; every decision is exact.
+
+        Parameters
+        ----------
+        queries : array-like of shape (m, 3)
+        threads : int, optional
+            Threads to use; by default one for each usable CPU. The result does not depend
+            on it.
+
+        Returns
+        -------
+        (m,) int32
+            Rows of `tetrahedra`; -1 outside of all of them. Tetrahedra are closed: on a
+            common face, the first of those that meet there is returned.
+
+        Raises
+        ------
+        CloudShapeError, NonFiniteError
+            If `queries` is not a table of finite numbers; the message names the rows.
+        CoordinateRangeError
+            If coordinates of queries are too small beside the points for exact arithmetic.
+        ParameterError
+            If `threads` is not what it must be.
+        """
+        wanted = as_queries_in_space(queries)
+        labels = np.arange(len(self.tetrahedra), dtype=np.int32)
+        found, _ = labels_at(
+            self.points, self.tetrahedra, self._incidence, labels, wanted, threads
+        )
+        return found
 
     @cached_property
     def hull_triangles(self) -> IntArray:
@@ -109,12 +174,15 @@ def delaunay_in_space(
     """
     cloud = as_cloud(points, 3)
     try:
-        merged, simplices, _, cofaces = alpha3(cloud.points, threads, progress)
+        merged, tetrahedra, neighbors = delaunay3(cloud.points, threads, progress)
+        representative, _ = merged_rows(merged, len(cloud))
+        faces = None
+        if len(tetrahedra) == 0:  # in one plane, triangles and edges are all there is
+            _, (edges, triangles, _), _, _ = alpha3(cloud.points, threads)
+            faces = triangles, edges
     except BadCoordinates:
         raise coordinate_error(cloud.points) from None
-    representative, _ = merged_rows(merged, len(cloud))
-    faces = tetrahedron_triangles3(simplices[2], simplices[1], cofaces)
-    return triangulation(cloud.points, representative, simplices, cofaces, faces)
+    return Delaunay3D(cloud.points, representative, tetrahedra, neighbors, faces)
 
 
 def triangulation(
@@ -130,7 +198,7 @@ def triangulation(
     both = triangle_tetrahedra.sum(axis=1, dtype=np.int32)
     rows = np.arange(len(tetrahedra), dtype=np.int32)[:, np.newaxis]
     neighbors = read_only(both.take(tetrahedron_triangles) - rows)
-    return Delaunay3D(points, representative, tetrahedra, neighbors, triangles, edges)
+    return Delaunay3D(points, representative, tetrahedra, neighbors, (triangles, edges))
 
 
 def oriented_tetrahedra(points: FloatArray, tetrahedra: IntArray) -> IntArray:
