@@ -17,7 +17,7 @@ from alphamesh.measures import scaled_points
 from alphamesh.points import as_cloud, coordinate_error, merged_rows
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import BoolArray, FloatArray, IntArray
+    from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
 
 __all__ = [
@@ -49,7 +49,8 @@ class Delaunay3D(Record):
         ``neighbors[t, j]`` is the tetrahedron on the other side of the triangle that lies
         opposite to ``tetrahedra[t, j]``; -1 on the convex hull.
     faces : tuple of (F, 3) int32 and (E, 2) int32, or None
-        `triangles` and `edges`, if these are known already.
+        `triangles` and `edges`, if these are known already; else they are found when they
+        are asked for.
 
     All arrays are read-only.
 
@@ -57,8 +58,7 @@ class Delaunay3D(Record):
     -----
     Where five or more points lie on one sphere, several triangulations are Delaunay. The
     one that a symbolic perturbation picks [1]_ depends on the coordinates alone: neither
-    on the order of the points nor on the number of threads. Triangles and edges come in
-    an order of their own, other than that of a complex.
+    on the order of the points nor on the number of threads.
 
     References
     ----------
@@ -72,36 +72,32 @@ class Delaunay3D(Record):
     neighbors: IntArray
     faces: tuple[IntArray, IntArray] | None = None
 
-    @cached_property
+    @property
     def triangles(self) -> IntArray:
         """All triangles, ``(F, 3)`` int32, ascending within a triangle."""
-        if self.faces is not None:
-            return self.faces[0]
-        return read_only(self.tetrahedra[:, _OPPOSITE][self._counted_here])
-
-    @cached_property
-    def edges(self) -> IntArray:
-        """All edges, ``(E, 2)`` int32, ascending within an edge."""
-        if self.faces is not None:
-            return self.faces[1]
-        low, high = (self.triangles[:, ends].ravel() for ends in ([0, 0, 1], [1, 2, 2]))
-        keys = np.unique((low.astype(np.int64) << 32) | high)
-        return read_only(np.column_stack((keys >> 32, keys & 0xFFFFFFFF)).astype(np.int32))
+        return self._known_faces[0]
 
     @property
-    def _counted_here(self) -> BoolArray:
-        """Which corners lie opposite to a triangle without a tetrahedron of higher number."""
-        rows = np.arange(len(self.tetrahedra), dtype=np.int32)[:, np.newaxis]
-        here: BoolArray = self.neighbors < rows
-        return here
+    def edges(self) -> IntArray:
+        """All edges, ``(E, 2)`` int32, ascending within an edge."""
+        return self._known_faces[1]
+
+    @cached_property
+    def _known_faces(self) -> tuple[IntArray, IntArray]:
+        if self.faces is not None:
+            return self.faces
+        # Faster than to sort those of the tetrahedra, and in the order of a complex.
+        _, (edges, triangles, _), _, _ = alpha3(self.points)
+        return triangles, edges
 
     @cached_property
     def _incidence(self) -> tuple[IntArray, IntArray]:
         """The tetrahedra of each triangle, and the triangles of each tetrahedron."""
-        here = self._counted_here
-        rows = np.nonzero(here)[0].astype(np.int32)
-        cofaces = read_only(np.column_stack((rows, self.neighbors[here])))
-        triangles = read_only(self.tetrahedra[:, _OPPOSITE][here])
+        rows = np.arange(len(self.tetrahedra), dtype=np.int32)
+        # A triangle is that of the later of its two tetrahedra, or of its only one.
+        mine = self.neighbors < rows[:, np.newaxis]
+        cofaces = np.column_stack((np.repeat(rows, mine.sum(axis=1)), self.neighbors[mine]))
+        triangles = self.tetrahedra[:, _OPPOSITE][mine]
         return cofaces, tetrahedron_triangles3(self.tetrahedra, triangles, cofaces)
 
     def find(self, queries: Any, *, threads: int | None = None) -> IntArray:
@@ -176,13 +172,9 @@ def delaunay_in_space(
     try:
         merged, tetrahedra, neighbors = delaunay3(cloud.points, threads, progress)
         representative, _ = merged_rows(merged, len(cloud))
-        faces = None
-        if len(tetrahedra) == 0:  # in one plane, triangles and edges are all there is
-            _, (edges, triangles, _), _, _ = alpha3(cloud.points, threads)
-            faces = triangles, edges
     except BadCoordinates:
         raise coordinate_error(cloud.points) from None
-    return Delaunay3D(cloud.points, representative, tetrahedra, neighbors, faces)
+    return Delaunay3D(cloud.points, representative, tetrahedra, neighbors)
 
 
 def triangulation(
