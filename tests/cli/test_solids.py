@@ -63,6 +63,19 @@ def test_solids_are_not_taken_for_scans_and_strays_hide_none():
     assert told["scan"] and told["genera"] == [1]
 
 
+def test_grids_are_solids_unless_hollow():
+    grid = np.stack(np.meshgrid(*[np.arange(9.0)] * 3), axis=-1).reshape(-1, 3)
+    cavity = (np.abs(grid - 4) <= 1).all(axis=1)
+    skin = ((grid == 0) | (grid == 8)).any(axis=1)
+    expected = {"solid": (False, 512.0), "cavity": (False, 448.0), "skin": (True, 512.0)}
+    for name, kept in (("solid", grid[:, 0] >= 0), ("cavity", ~cavity), ("skin", skin)):
+        np.savetxt(f"{name}.xyz", grid[kept])
+        told = facts("mesh", f"{name}.xyz")
+        scan, volume = expected[name]
+        assert told["scan"] == scan
+        assert told["volume"] == pytest.approx(volume, rel=0.1)
+
+
 def test_scan_options():
     source = ("mesh", "demo:torus-surface", "-n", "2000")
     as_solid = facts(*source, "--no-scan")

@@ -36,6 +36,8 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 # Scans have strays: should the surface not close around all points, it may around so many.
 _SHARES = (1.0, 0.99)
+# A void of more balls than this is no gap between points.
+_MANY_BALLS = 8
 # Genera and shells that are told one by one.
 _TOLD = 8
 
@@ -232,9 +234,9 @@ def _chosen(job: Job, options: dict[str, Any], steps: Steps) -> tuple[RadiusChoi
 def found_scan(filtration: Filtration3D) -> RadiusChoice | None:
     """Return the radius that closes the surface on which the points lie, if they do.
 
-    Where the complex that closes around the points holds more voids than tetrahedra, it is
-    a film around the thing that was scanned. Points that fill a solid leave no voids; those
-    in a thick wall, smaller ones.
+    Where the complex that closes around the points is for the most part void, it is a film
+    around the thing that was scanned. Points that fill a solid leave no voids but some no
+    larger than the balls, which do not count; those in a thick wall, smaller ones.
     """
     from alphamesh.radius import choose_radius
     from alphamesh.shape3d import AlphaShape3D
@@ -244,7 +246,9 @@ def found_scan(filtration: Filtration3D) -> RadiusChoice | None:
     for share in _SHARES:
         choice = choose_radius(filtration, "enclosed", share=share)
         shape = AlphaShape3D(filtration, choice.radius)
-        if shape.voids.volumes.sum() > shape.volume:
+        volumes, ball = shape.voids.volumes, 4 / 3 * np.pi * choice.radius**3
+        large = float(volumes[volumes > _MANY_BALLS * ball].sum())
+        if large > shape.volume + float(volumes.sum()) - large:
             return choice
     return None
 
