@@ -240,3 +240,44 @@ def test_pcd_of_points_in_the_plane():
     ok("sample", "demo:annulus", "-n", "50", "-o", "a.pcd")
     read = am.read_points("a.pcd", dimension=2)
     np.testing.assert_array_equal(read, am.demo_cloud("annulus", 50, seed=0))
+
+
+def test_places_are_looked_up_in_solids():
+    places = np.random.default_rng(1).uniform(-1.5, 1.5, (60, 3))
+    np.savetxt("places.csv", places, delimiter=",", header="x,y,z", comments="", fmt="%.17g")
+    shape = am.AlphaComplex(am.sample_solid("torus", 2000, seed=0)).at(0.25)
+    ok("query", "demo:torus", "places.csv", "-r", "0.25", "--nearest", "-o", "a.csv")
+    table = np.genfromtxt("a.csv", delimiter=",", names=True)
+    np.testing.assert_array_equal(np.column_stack([table[name] for name in "xyz"]), places)
+    np.testing.assert_array_equal(table["inside"], shape.contains(places))
+    np.testing.assert_array_equal(table["region"], shape.region_of(places))
+    np.testing.assert_allclose(table["distance"], shape.distance(places, signed=True))
+    np.testing.assert_array_equal(table["nearest_z"], shape.nearest(places).points[:, 2])
+    scanned = facts("query", "demo:torus-surface", "places.csv")
+    assert scanned["rule"] == "enclosed" and 0 < scanned["inside"] < 60
+
+
+def test_places_and_points_of_other_dimensions(points):
+    rows = np.random.default_rng(5).random((20, 3)) * 500
+    np.savetxt("places.csv", rows, delimiter=",", header="x,y,z", comments="", fmt="%.17g")
+    ok("query", "points.csv", "places.csv", "-r", "30", "-o", "a.csv")
+    table = np.genfromtxt("a.csv", delimiter=",", names=True)
+    shape = am.AlphaComplex(points).at(30.0)
+    np.testing.assert_array_equal(table["inside"], shape.contains(rows[:, :2]))
+    np.testing.assert_array_equal(table["z"], rows[:, 2])
+    flat = ("query", "demo:ball", "places.csv", "--places-columns", "x,y")
+    assert "in space" in refused(1, *flat)
+
+
+def test_regions_and_voids_of_solids():
+    source = ("regions", "demo:hollow-torus", "-n", "4000", "-r", "0.17")
+    shape = am.AlphaComplex(am.sample_solid("hollow-torus", 4000, seed=0)).at(0.17)
+    (region,) = facts(*source)["regions"]
+    assert region["volume"] == pytest.approx(shape.volume)
+    assert region["tetrahedra"] == len(shape.tetrahedra)
+    assert region["centroid_z"] == pytest.approx(0, abs=0.05)
+    (void,) = facts(*source, "--holes")["holes"]
+    assert void["volume"] == pytest.approx(shape.voids.volumes[0])
+    assert facts(*source, "--fill-voids", "all", "--holes")["holes"] == []
+    assert "--fill-voids" in refused(2, *source, "--fill-holes", "3")
+    assert "surface_area" in ok(*source)

@@ -48,7 +48,7 @@ _FLAGS = {
     "largest": "--largest",
     "surface": "--surface/--complex",
 }
-_OPTIONS = (
+_VOID_OPTIONS = (
     click.option(
         "--scan/--no-scan",
         "scan",
@@ -69,6 +69,9 @@ _OPTIONS = (
         metavar="VOLUME",
         help="In space: drop regions of a smaller volume.  [default: none]",
     ),
+)
+_OPTIONS = (
+    *_VOID_OPTIONS,
     click.option(
         "--largest",
         type=click.IntRange(0),
@@ -85,19 +88,20 @@ def solid_options(command: Function) -> Function:
     return command
 
 
-def refuse_solid_options(options: dict[str, Any], source: str) -> None:
+def refuse_solid_options(
+    options: dict[str, Any], source: str, *, but: tuple[str, ...] = ()
+) -> None:
     """Raise a usage error if `options` are given that are for points in space alone."""
-    flags = {
-        **{name: f"--{name.replace('_', '-')}" for name in ("fill_voids", "min_volume")},
-        **{
-            "largest": "--largest",
-            "scan": "--scan/--no-scan",
-            "surface": "--surface/--complex",
-        },
-    }
-    for name, flag in flags.items():
-        if options.get(name) is not None:
+    for name, flag in _FLAGS.items():
+        if name not in but and options.get(name) is not None:
             raise click.UsageError(f"{flag} has no meaning for {source!r}, points in the plane")
+
+
+def void_options(command: Function) -> Function:
+    """Add the options that a command needs beside those of shapes in the plane."""
+    for option in reversed(_VOID_OPTIONS):
+        command = option(command)
+    return command
 
 
 surface_option = click.option(
