@@ -74,8 +74,10 @@ _EXAMPLES = (
 @click.option(
     "--view",
     type=click.Choice(list(VIEWS)),
-    help="What to draw: story is hull, Voronoi, Delaunay, cut cells and complex together. In "
-    f"space there are {', '.join(_IN_SPACE)}.  [default: story; in space, overview]",
+    metavar="VIEW",
+    help=f"What to draw: {', '.join(VIEWS)}. The story is hull, Voronoi, Delaunay, cut "
+    f"cells and complex together; in space there are {', '.join(_IN_SPACE)}.  "
+    "[default: story; in space, overview]",
 )
 @radius_option
 @solid_options
