@@ -155,7 +155,7 @@ def from_cells(points, cells):
     for t in (0, 1):
         neighbors[t, [v not in common for v in cells[t]]] = 1 - t
     rows = np.arange(len(points), dtype=np.int32)
-    return am.Delaunay3D(points, rows, cells, neighbors, triangles, edges)
+    return am.Delaunay3D(points, rows, cells, neighbors, (triangles, edges))
 
 
 def test_names_clouds_of_another_dimension():

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import read_only
+from alphamesh.location3d import as_queries_in_space
 from alphamesh.queries3d import (
     Nearest3D,
     SurfaceTree,
-    as_queries_in_space,
     nearest_triangles,
     sides_at,
     surface_tree,

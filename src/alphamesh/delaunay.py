@@ -12,18 +12,13 @@ from alphamesh import _kernels
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.cells import locate2
 from alphamesh.delaunay3d import Delaunay3D, delaunay_in_space
-from alphamesh.errors import CoordinateRangeError, rows_text
-from alphamesh.points import as_cloud, coordinate_error
+from alphamesh.points import as_cloud, coordinate_error, tiny_queries
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
 
 __all__ = ["Delaunay", "delaunay", "delaunay_in_plane", "edges_of"]
-
-# A number of at least this share of another one has all of its 53 digits in the range of
-# 490 binary digits that exact sums can hold.
-_ALL_DIGITS = 2.0 ** (53 - 490)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -111,7 +106,7 @@ class Delaunay(Record):
         try:
             found[near] = locate2(*arrays, wanted[near], threads)
         except _kernels.BadCoordinates:
-            raise _tiny_queries(self.points, np.where(near[:, None], wanted, 0.0)) from None
+            raise tiny_queries(self.points, np.where(near[:, None], wanted, 0.0)) from None
         return read_only(found)
 
     def __repr__(self) -> str:
@@ -119,19 +114,6 @@ class Delaunay(Record):
             f"<Delaunay: {len(self.points):,} points, {len(self.triangles):,} triangles"
             f"{', on one line' if len(self.path) else ''}>"
         )
-
-
-def _tiny_queries(points: FloatArray, queries: FloatArray) -> CoordinateRangeError:
-    """Return the error for queries whose last digits lie below those that sums can hold."""
-    safe = float(np.abs(points).max()) * _ALL_DIGITS
-    sizes = np.abs(queries)
-    rows = np.flatnonzero(((sizes > 0) & (sizes < safe)).any(axis=1))
-    return CoordinateRangeError(
-        "coordinates too small beside the points for exact arithmetic in "
-        f"{rows_text(rows[:6], total=len(rows))} of the queries; set them to zero: "
-        f"queries[abs(queries) < {safe:.3g}] = 0",
-        rows=rows[:6],
-    )
 
 
 def edges_of(triangles: IntArray, neighbors: IntArray) -> IntArray:

@@ -10,8 +10,9 @@ import numpy as np
 
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels import BadCoordinates
-from alphamesh._kernels.space import alpha3, orient3, tetrahedron_triangles3
+from alphamesh._kernels.space import alpha3, delaunay3, orient3, tetrahedron_triangles3
 from alphamesh.hull3d import ConvexHull3D
+from alphamesh.location3d import as_queries_in_space, labels_at
 from alphamesh.measures import scaled_points
 from alphamesh.points import as_cloud, coordinate_error, merged_rows
 
@@ -29,6 +30,8 @@ __all__ = [
 
 # Tetrahedra worked on at a time: their coordinates stay in the processor's cache.
 _CHUNK = 1 << 14
+# The corners of the triangle opposite to each corner of a tetrahedron.
+_OPPOSITE = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -45,10 +48,9 @@ class Delaunay3D(Record):
     neighbors : (T, 4) int32
         ``neighbors[t, j]`` is the tetrahedron on the other side of the triangle that lies
         opposite to ``tetrahedra[t, j]``; -1 on the convex hull.
-    triangles : (F, 3) int32
-        All triangles, ascending within a triangle.
-    edges : (E, 2) int32
-        All edges, ascending within an edge.
+    faces : tuple of (F, 3) int32 and (E, 2) int32, or None
+        `triangles` and `edges`, if these are known already; else they are found when they
+        are asked for.
 
     All arrays are read-only.
 
@@ -68,8 +70,67 @@ class Delaunay3D(Record):
     representative: IntArray
     tetrahedra: IntArray
     neighbors: IntArray
-    triangles: IntArray
-    edges: IntArray
+    faces: tuple[IntArray, IntArray] | None = None
+
+    @property
+    def triangles(self) -> IntArray:
+        """All triangles, ``(F, 3)`` int32, ascending within a triangle."""
+        return self._known_faces[0]
+
+    @property
+    def edges(self) -> IntArray:
+        """All edges, ``(E, 2)`` int32, ascending within an edge."""
+        return self._known_faces[1]
+
+    @cached_property
+    def _known_faces(self) -> tuple[IntArray, IntArray]:
+        if self.faces is not None:
+            return self.faces
+        # Faster than to sort those of the tetrahedra, and in the order of a complex.
+        _, (edges, triangles, _), _, _ = alpha3(self.points)
+        return triangles, edges
+
+    @cached_property
+    def _incidence(self) -> tuple[IntArray, IntArray]:
+        """The tetrahedra of each triangle, and the triangles of each tetrahedron."""
+        rows = np.arange(len(self.tetrahedra), dtype=np.int32)
+        # A triangle is that of the later of its two tetrahedra, or of its only one.
+        mine = self.neighbors < rows[:, np.newaxis]
+        cofaces = np.column_stack((np.repeat(rows, mine.sum(axis=1)), self.neighbors[mine]))
+        triangles = self.tetrahedra[:, _OPPOSITE][mine]
+        return cofaces, tetrahedron_triangles3(self.tetrahedra, triangles, cofaces)
+
+    def find(self, queries: Any, *, threads: int | None = None) -> IntArray:
+        """Return the tetrahedron that each query lies in; every decision is exact.
+
+        Parameters
+        ----------
+        queries : array-like of shape (m, 3)
+        threads : int, optional
+            Threads to use; by default one for each usable CPU. The result does not depend
+            on it.
+
+        Returns
+        -------
+        (m,) int32
+            Rows of `tetrahedra`; -1 outside of all of them. Tetrahedra are closed: on a
+            common face, the first of those that meet there is returned.
+
+        Raises
+        ------
+        CloudShapeError, NonFiniteError
+            If `queries` is not a table of finite numbers; the message names the rows.
+        CoordinateRangeError
+            If coordinates of queries are too small beside the points for exact arithmetic.
+        ParameterError
+            If `threads` is not what it must be.
+        """
+        wanted = as_queries_in_space(queries)
+        labels = np.arange(len(self.tetrahedra), dtype=np.int32)
+        found, _ = labels_at(
+            self.points, self.tetrahedra, self._incidence, labels, wanted, threads
+        )
+        return found
 
     @cached_property
     def hull_triangles(self) -> IntArray:
@@ -109,12 +170,11 @@ def delaunay_in_space(
     """
     cloud = as_cloud(points, 3)
     try:
-        merged, simplices, _, cofaces = alpha3(cloud.points, threads, progress)
+        merged, tetrahedra, neighbors = delaunay3(cloud.points, threads, progress)
+        representative, _ = merged_rows(merged, len(cloud))
     except BadCoordinates:
         raise coordinate_error(cloud.points) from None
-    representative, _ = merged_rows(merged, len(cloud))
-    faces = tetrahedron_triangles3(simplices[2], simplices[1], cofaces)
-    return triangulation(cloud.points, representative, simplices, cofaces, faces)
+    return Delaunay3D(cloud.points, representative, tetrahedra, neighbors)
 
 
 def triangulation(
@@ -130,7 +190,7 @@ def triangulation(
     both = triangle_tetrahedra.sum(axis=1, dtype=np.int32)
     rows = np.arange(len(tetrahedra), dtype=np.int32)[:, np.newaxis]
     neighbors = read_only(both.take(tetrahedron_triangles) - rows)
-    return Delaunay3D(points, representative, tetrahedra, neighbors, triangles, edges)
+    return Delaunay3D(points, representative, tetrahedra, neighbors, (triangles, edges))
 
 
 def oriented_tetrahedra(points: FloatArray, tetrahedra: IntArray) -> IntArray:

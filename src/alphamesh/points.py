@@ -35,6 +35,7 @@ __all__ = [
     "coordinate_error",
     "merged_rows",
     "refuse_overflow",
+    "tiny_queries",
     "warn_of_degrees",
 ]
 
@@ -149,6 +150,28 @@ def coordinate_error(points: FloatArray) -> CloudError:
             rows=rows[:6],
         )
     return _range_error(points)
+
+
+def tiny_queries(points: FloatArray, queries: FloatArray) -> CoordinateRangeError:
+    """Return the error for queries whose last digits lie below those that sums can hold.
+
+    Parameters
+    ----------
+    points : (n, 2) or (n, 3) float64
+    queries : (q, 2) or (q, 3) float64
+        Not beyond the points.
+    """
+    digits = _EXPONENT_RANGES[points.shape[1]]
+    # Any number of at least this size has all of its 53 digits within the range.
+    safe = float(np.ldexp(np.abs(points).max(), 53 - digits))
+    sizes = np.abs(queries)
+    rows = np.flatnonzero(((sizes > 0) & (sizes < safe)).any(axis=1))
+    return CoordinateRangeError(
+        "coordinates too small beside the points for exact arithmetic in "
+        f"{rows_text(rows[:6], total=len(rows))} of the queries; set them to zero: "
+        f"queries[abs(queries) < {safe:.3g}] = 0",
+        rows=rows[:6],
+    )
 
 
 def merged_rows(representative: IntArray | None, count: int) -> tuple[IntArray, IntArray]:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from alphamesh import _kernels
 from alphamesh._arrays import Record, read_only
-from alphamesh._kernels.surfaces import locate3, nearest3, triangle_tree3
-from alphamesh.points import as_cloud, coordinate_error
+from alphamesh._kernels.surfaces import nearest3, triangle_tree3
+from alphamesh.location3d import labels_at
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray, KindArray
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
 __all__ = [
     "Nearest3D",
     "SurfaceTree",
-    "as_queries_in_space",
     "nearest_triangles",
     "sides_at",
     "surface_tree",
@@ -78,20 +76,6 @@ class SurfaceTree(Record):
     tree: TriangleTree | None
 
 
-def as_queries_in_space(queries: Any) -> FloatArray:
-    """Return queries as a table of three finite numbers each.
-
-    Raises
-    ------
-    CloudShapeError, NonFiniteError
-        If they are not; the message names the rows.
-    """
-    table = as_cloud(queries, 3).points
-    if not np.isfinite(table).all():
-        raise coordinate_error(table)
-    return table
-
-
 def sides_at(
     filtration: Filtration3D, labels: IntArray, queries: FloatArray
 ) -> tuple[IntArray, KindArray]:
@@ -116,17 +100,13 @@ def sides_at(
     CoordinateRangeError
         If queries and points are too far apart in scale for exact arithmetic.
     """
-    try:
-        return locate3(
-            filtration.points,
-            filtration.simplices[3],
-            filtration.triangle_tetrahedra,
-            filtration.tetrahedron_triangles,
-            labels,
-            queries,
-        )
-    except _kernels.BadCoordinates:
-        raise coordinate_error(queries) from None
+    return labels_at(
+        filtration.points,
+        filtration.simplices[3],
+        (filtration.triangle_tetrahedra, filtration.tetrahedron_triangles),
+        labels,
+        queries,
+    )
 
 
 def _exponent(points: FloatArray) -> int:

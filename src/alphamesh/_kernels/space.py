@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "alpha3",
+    "delaunay3",
     "insphere3",
     "orient3",
     "parts3",
@@ -66,10 +67,7 @@ def alpha3(
     try:
         result = _core.alpha3(points, threads, progress)
     except _core.TooManyPoints:
-        raise CloudTooLargeError(
-            f"{len(points):,} points are more than the {_MOST_POINTS:,} that 32-bit numbers "
-            "of tetrahedra can hold; thin the cloud out, or split it into parts"
-        ) from None
+        raise _too_many(points) from None
     for array in result[1:]:
         if array is not None:
             array.setflags(write=False)
@@ -77,6 +75,41 @@ def alpha3(
     simplices = result[7], result[4], result[2]
     radii = result[8], result[5], result[3]
     return representative, simplices, radii, triangle_tetrahedra
+
+
+def delaunay3(
+    points: FloatArray, threads: int | None = None, progress: Progress | None = None
+) -> tuple[IntArray | None, IntArray, IntArray]:
+    """Return the tetrahedra of a Delaunay triangulation, those of `alpha3`, and neighbours.
+
+    Parameters and errors are those of `alpha3`.
+
+    Returns
+    -------
+    representative : (n,) int32 or None
+    tetrahedra : (T, 4) int32
+        Each row ascending.
+    neighbors : (T, 4) int32
+        The tetrahedron beyond the triangle opposite to each corner, -1 where there is none.
+    """
+    threads = resolve_threads(threads)
+    _check_progress(progress)
+    try:
+        result = _core.delaunay3(points, threads, progress)
+    except _core.TooManyPoints:
+        raise _too_many(points) from None
+    _, representative, tetrahedra, neighbors = result
+    for array in result[1:]:
+        if array is not None:
+            array.setflags(write=False)
+    return representative, tetrahedra, neighbors
+
+
+def _too_many(points: FloatArray) -> CloudTooLargeError:
+    return CloudTooLargeError(
+        f"{len(points):,} points are more than the {_MOST_POINTS:,} that 32-bit numbers "
+        "of tetrahedra can hold; thin the cloud out, or split it into parts"
+    )
 
 
 def orient3(corners: FloatArray) -> KindArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
@@ -10,17 +11,21 @@ import click
 import numpy as np
 
 from alphamesh.cli.command import Command, json_option, quiet_option, threads_option
-from alphamesh.cli.inputs import InputOptions, demo_shape, load, table_options
+from alphamesh.cli.demos import demo_shape, demo_solid
+from alphamesh.cli.inputs import InputOptions, load, table_options
 from alphamesh.cli.kinds import DEMO, IMAGE, MESH, POINTS, holds, ply_elements
+from alphamesh.cli.mesh_facts import tell_surface
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted, number, points_text, print_json, print_lines
+from alphamesh.errors import AlphameshError
 from alphamesh.measures import edge_lengths
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from alphamesh.filtration import AnyFiltration
+    from alphamesh.solids import DemoSolid
 
 __all__ = ["command", "nearest_distances"]
 
@@ -174,6 +179,9 @@ def nearest_distances(filtration: AnyFiltration) -> NDArray[np.float64]:
 
 
 def _demo(source: str) -> Told:
+    found = demo_solid(source)
+    if found is not None:
+        return _solid(source, *found)
     shape = demo_shape(source)
     components, holes = shape.betti
     facts = {
@@ -185,6 +193,27 @@ def _demo(source: str) -> Told:
     }
     topology = f"{counted(components, 'component')}, {counted(holes, 'hole')}"
     return facts, {"Demo shape": f"{shape.name}: {shape.description}", "Topology": topology}
+
+
+def _solid(source: str, solid: DemoSolid, of_surface: bool) -> Told:
+    components, loops, voids = solid.betti
+    facts = {
+        "kind": DEMO,
+        "name": source,
+        "description": solid.description,
+        "components": components,
+        "loops": loops,
+        "voids": voids,
+        "genera": solid.genera,
+    }
+    parts = (components, "component"), (loops, "loop"), (voids, "void")
+    what = "Surface of demo solid" if of_surface else "Demo solid"
+    return facts, {
+        what: f"{solid.name}: {solid.description}",
+        "Topology": ", ".join(counted(count, noun) for count, noun in parts),
+        "Genus": ", ".join(map(str, solid.genera)),
+        "Next": f"alphamesh mesh {source} -o mesh.stl",
+    }
 
 
 def _image(source: str, steps: Steps) -> Told:
@@ -232,6 +261,8 @@ def _mesh(source: str, steps: Steps) -> Told:
     }
     if len(mesh.points):
         _tell_bounds(mesh.points, facts, lines)
+    if "tetra" not in cells:
+        tell_surface(mesh.points, mesh.cells.get("triangle"), facts, lines)
     for label, data in (("Point data", mesh.point_data), ("Cell data", mesh.cell_data)):
         if data:
             lines[label] = ", ".join(data)
@@ -240,10 +271,14 @@ def _mesh(source: str, steps: Steps) -> Told:
 
 def _ply(source: str, counts: dict[str, int], steps: Steps) -> Told:
     """Tell what a PLY file holds; its elements are more than most readers know."""
+    from alphamesh.io.meshes import read_mesh
     from alphamesh.io.points import read_points
 
+    triangles = None
     with steps.step(f"Reading {source}"):
-        points = read_points(source)
+        points = read_points(source, dimension=3)
+        with suppress(AlphameshError):  # faces of four corners, for instance
+            triangles = read_mesh(source).cells.get("triangle")
     facts: dict[str, Any] = {
         "kind": MESH,
         "name": source,
@@ -259,4 +294,5 @@ def _ply(source: str, counts: dict[str, int], steps: Steps) -> Told:
     }
     if len(points):
         _tell_bounds(points, facts, lines)
+    tell_surface(points, triangles, facts, lines)
     return facts, lines

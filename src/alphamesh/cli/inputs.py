@@ -11,21 +11,20 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
-from alphamesh.cli.kinds import DEMO, DEMO_PREFIX, MESH, POINTS, kind_of
+from alphamesh.cli.demos import demo_shape, demo_solid
+from alphamesh.cli.kinds import DEMO, MESH, POINTS, kind_of
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted
 from alphamesh.cli.types import ColumnsType
-from alphamesh.errors import ParameterError
+from alphamesh.errors import DimensionError, ParameterError
 
 if TYPE_CHECKING:
-    from alphamesh.sampling import DemoShape
     from alphamesh.table import PointTable
 
 __all__ = [
     "Input",
     "InputOptions",
-    "demo_shape",
     "load",
     "sampling_options",
     "seed_option",
@@ -95,6 +94,7 @@ _SAMPLING = {
     "replace": "--replace",
 }
 _OF_IMAGES = {name: _SAMPLING[name] for name in ("threshold", "invert")}
+_OF_PIXELS = {name: _SAMPLING[name] for name in ("jitter", "replace")}
 _TABLE = {
     "columns": "--columns",
     "file_format": "--from",
@@ -114,7 +114,8 @@ _SAMPLING_OPTIONS: dict[str, dict[str, Any]] = {
     "count": {
         "type": click.IntRange(min=1),
         "metavar": "N",
-        "help": f"Draw so many points from an image.  [default: {_DEFAULT_COUNT}]",
+        "help": "Draw so many points from an image or a demo shape.  "
+        f"[default: {_DEFAULT_COUNT}]",
     },
     "threshold": {
         "type": float,
@@ -273,6 +274,8 @@ def _load(
     options.refuse(_OF_TABLES, name, "which is no table")
     if kind == DEMO:
         options.refuse(_OF_IMAGES, name, "a demo shape, which has no shades")
+        if demo_solid(source) is not None:
+            return _load_solid(source, options, steps)
     return _load_pixels(source, name, options, steps)
 
 
@@ -294,6 +297,28 @@ def _load_table(
         facts["crs"] = table.crs.to_string()
         text = f"{name} (points in {table.crs.name})"
     return Input(table.points, text, facts, table)
+
+
+def _load_solid(source: str, options: InputOptions, steps: Steps) -> Input:
+    """Draw points from a demo solid or its surface."""
+    from alphamesh.sampling import sample_solid
+
+    found = demo_solid(source)
+    assert found is not None
+    solid, of_surface = found
+    if options.dimension == 2:
+        raise DimensionError(f"{source} lies in space, and this is for points in the plane")
+    options.refuse(_OF_PIXELS, source, "a demo solid, which has no pixels")
+    count = _DEFAULT_COUNT if options.count is None else options.count
+    seed = _DEFAULT_SEED if options.seed is None else options.seed
+    with steps.step(f"Drawing {counted(count, 'point')} from {source}"):
+        points = sample_solid(solid.name, count, seed=seed, surface=of_surface)
+    what = "surface of a demo solid" if of_surface else "demo solid"
+    return Input(
+        points,
+        f"{source} ({what}: {solid.description})",
+        {"kind": DEMO, "name": source, "seed": seed},
+    )
 
 
 def _load_pixels(source: str, name: str, options: InputOptions, steps: Steps) -> Input:
@@ -332,20 +357,3 @@ def _load_pixels(source: str, name: str, options: InputOptions, steps: Steps) ->
             "seed": seed,
         },
     )
-
-
-def demo_shape(source: str) -> DemoShape:
-    """Return the shape that ``demo:NAME`` stands for.
-
-    Raises
-    ------
-    click.UsageError
-        If there is none of that name; the message lists those that there are.
-    """
-    from alphamesh.sampling import DEMO_SHAPES
-
-    name = source.removeprefix(DEMO_PREFIX)
-    if name not in DEMO_SHAPES:
-        listed = ", ".join(DEMO_SHAPES)
-        raise click.UsageError(f"there is no demo shape {name!r}; choose among: {listed}")
-    return DEMO_SHAPES[name]

@@ -55,18 +55,20 @@ _EXAMPLES = (
 def command(
     source: str, tables: tuple[Path, ...], radii: Any, steps: int, **options: Any
 ) -> None:
-    """Measure the complex at many radii: area, perimeter, numbers of simplices.
+    """Measure the complex at many radii: area or volume, numbers of simplices.
 
     INPUT is a mask image, a file of points, "-" for standard input, or demo:NAME
     for a built-in shape. The table has one line for each radius: components,
-    holes, Euler characteristic, edges, triangles, their area and perimeter.
+    holes, Euler characteristic, edges, triangles, their area and perimeter. In
+    space: components, loops, voids, Euler characteristic, edges, triangles,
+    tetrahedra, their volume and surface area.
     """
     from alphamesh.film import film_radii
 
     check_targets(tables, source)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as told:
-        job = Job.begin(source, options, told)
+        job = Job.begin(source, options, told, space=True)
         with told.step("Measuring") as done:
             pairs = job.complex.persistence(threads=options["threads"], progress=done)
             columns = _columns(job.complex, film_radii(pairs, radii, steps))
@@ -80,15 +82,24 @@ def command(
 
 
 def _columns(built: AlphaComplex, radii: NDArray[np.float64]) -> dict[str, NDArray[Any]]:
-    curves = built.measure_curves()
+    curves: Any = built.measure_curves()
     betti = built.persistence().betti_numbers(radii)
-    return {
+    columns = {
         "radius": radii,
         "components": betti[:, 0],
-        "holes": betti[:, 1],
+        "holes" if betti.shape[1] == 2 else "loops": betti[:, 1],
+    }
+    if betti.shape[1] == 3:
+        columns["voids"] = betti[:, 2]
+    columns |= {
         "euler": curves.euler_characteristic(radii),
         "edges": curves.edge_count(radii),
         "triangles": curves.triangle_count(radii),
-        "area": curves.area(radii),
-        "perimeter": curves.perimeter(radii),
+    }
+    if betti.shape[1] == 2:
+        return columns | {"area": curves.area(radii), "perimeter": curves.perimeter(radii)}
+    return columns | {
+        "tetrahedra": curves.tetrahedron_count(radii),
+        "volume": curves.volume(radii),
+        "surface_area": curves.surface_area(radii),
     }

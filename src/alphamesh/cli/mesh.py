@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,14 +24,19 @@ from alphamesh.cli.command import Command, setting
 from alphamesh.cli.files import MeshFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.summary import area_text, length_text, volume_text
+from alphamesh.cli.solids import (
+    Solid,
+    refuse_solid_options,
+    solid_at,
+    solid_options,
+    surface_option,
+)
+from alphamesh.cli.summary import area_text, length_text
 from alphamesh.cli.types import SourceType
-from alphamesh.errors import DimensionError
 
 if TYPE_CHECKING:
     from alphamesh.radius import RadiusChoice
     from alphamesh.shape import AlphaShape
-    from alphamesh.shape3d import AlphaShape3D
 
 __all__ = ["command"]
 
@@ -41,6 +47,8 @@ _EXAMPLES = (
     "alphamesh mesh shape.png --points 20000 --seed 7 -o mesh.ply -o mesh.stl",
     "alphamesh mesh trees.csv --columns easting,northing --radius 25 --units m -o mesh.vtu",
     "alphamesh mesh points.csv --radius topology:holes=2 -o mesh.obj",
+    "alphamesh mesh scan.ply -o surface.stl --plot surface.png",
+    "alphamesh mesh cells.xyz -r 0.5 --fill-voids all --largest 1 -o solid.vtu -o skin.ply",
     "alphamesh mesh a.csv b.csv scan.ply --output-dir meshes --to vtu --jobs 2 --keep-going",
     "alphamesh sample shape.png -o - | alphamesh mesh - -o - --to off",
 )
@@ -56,6 +64,8 @@ _EXAMPLES = (
     is_flag=True,
     help="Keep other columns of INPUT as numbers of the vertices.",
 )
+@solid_options
+@surface_option
 @plot_option("Draw cloud, Delaunay triangulation and complex side by side.")
 @cloud_options
 def command(
@@ -67,12 +77,15 @@ def command(
     """Make a mesh from an image or a file of points, or meshes of many.
 
     INPUT is a mask image (points are drawn from its white pixels), a file of
-    points (CSV, TSV, TXT, XYZ, NPY, NPZ, Parquet, PLY), "-" for any of these on
-    standard input, or demo:NAME for a built-in shape such as demo:annulus.
-    Points with a third coordinate (a column z, as in PLY and XYZ files) are in
-    space: the mesh is of tetrahedra, in surface formats of their boundary.
-    Without -o, the mesh is only described. With --output-dir, a mesh of every
-    INPUT is written there, under its name.
+    points (CSV, TSV, TXT, XYZ, NPY, NPZ, Parquet, PLY, PCD, LAS), "-" for any of
+    these on standard input, or demo:NAME for a built-in shape such as demo:annulus.
+
+    Points with a third coordinate, a column z, are in space. Then VTU, VTK, MSH and
+    NPZ get tetrahedra; formats of surfaces get the closed surface around them,
+    watertight and oriented. The scan of a surface is found out, closed and filled.
+
+    Without -o, the mesh is only described. With --output-dir, a mesh of every INPUT
+    is written there, under its name.
     """
     if options["folder"] is not None:
         if meshes or picture:
@@ -86,106 +99,105 @@ def command(
     need_matplotlib(picture is not None)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        job, choice, shape = _made(source, options, steps)
-        files = [Output(path, _saver(job, shape, options), _STREAM) for path in meshes]
+        made = _made(source, options, steps)
+        files = [Output(path, _saver(made, options), _STREAM) for path in meshes]
         if picture is not None:
-            files.append(Output(picture, lambda path: _draw(job, choice, path)))
+            files.append(Output(picture, lambda path: _draw(made, path)))
         outputs.write(files, steps)
-    lines = _lines(choice, shape)
+    lines = _lines(made)
     if not meshes:
         lines["Written"] = "nothing; -o FILE writes the mesh"
-    job.tell({"dimension": job.complex.dimension, **_facts(choice, shape)}, lines, outputs)
+    facts = {"dimension": made.job.complex.dimension, **_facts(made)}
+    made.job.tell(facts, lines, outputs)
 
 
 # What the summary of many files shows.
-_COLUMNS = ("points", "radius", "triangles", "tetrahedra", "area", "volume")
+_COLUMNS = ("points", "radius", "triangles", "tetrahedra", "area", "volume", "watertight")
 
 
 def _mesh_file(source: str, path: Path, options: dict[str, Any]) -> dict[str, Any]:
     """Make one mesh of many."""
     with Steps(quiet=True) as steps:
-        job, choice, shape = _made(source, options, steps)
-    _saver(job, shape, options)(path)
+        made = _made(source, options, steps)
+    _saver(made, options)(path)
+    job = made.job
     return {
         "input": job.given.facts,
         "points": len(job.complex.points),
         "duplicates": job.duplicates,
         "dimension": job.complex.dimension,
-        **_facts(choice, shape),
+        **_facts(made),
     }
 
 
-def _made(
-    source: str, options: dict[str, Any], steps: Steps
-) -> tuple[Job, RadiusChoice, AlphaShape]:
+@dataclass(frozen=True, slots=True)
+class _Made:
+    """A shape in the plane or in space; `solid` tells of one in space."""
+
+    job: Job
+    choice: RadiusChoice
+    shape: Any
+    solid: Solid | None = None
+
+
+def _made(source: str, options: dict[str, Any], steps: Steps) -> _Made:
     job = Job.begin(source, options, steps, space=True, attributes=options["keep_columns"])
+    if job.complex.points.shape[1] == 3:
+        if options["keep_columns"]:
+            raise click.UsageError("--keep-columns is for points in the plane; leave it out")
+        choice, solid = solid_at(job, options, steps)
+        return _Made(job, choice, solid.shape, solid)
+    refuse_solid_options(options, source)
     choice = job.choose(options["radius"], steps)
-    return job, choice, job.complex.at(choice.radius)
+    return _Made(job, choice, job.complex.at(choice.radius))
 
 
-def _saver(job: Job, shape: AlphaShape, options: dict[str, Any]) -> Callable[[Path], None]:
+def _saver(made: _Made, options: dict[str, Any]) -> Callable[[Path], None]:
     """Return what writes the mesh."""
+    if made.solid is not None:
+        return made.solid.save
     if not options["keep_columns"]:
-        return shape.save
-    if job.complex.points.shape[1] == 3:
-        raise click.UsageError("--keep-columns is for points in the plane; leave it out")
-    return partial(shape.save, point_data=job.given.table)
+        return partial(made.shape.save)
+    return partial(made.shape.save, point_data=made.job.given.table)
 
 
-def _draw(job: Job, choice: RadiusChoice, path: Path) -> None:
+def _draw(made: _Made, path: Path) -> None:
     from alphamesh.plot import plot_overview
+    from alphamesh.plot.overview3d import plot_shape_in_space
 
-    if job.complex.points.shape[1] == 3:
-        raise DimensionError("--plot draws clouds in the plane alone; add --columns x,y")
-    save_figure(plot_overview(job.complex, choice.radius), path)
+    if made.solid is not None:
+        figure = plot_shape_in_space(made.solid.shape)
+    else:
+        figure = plot_overview(made.job.complex, made.choice.radius)
+    save_figure(figure, path)
 
 
-def _facts(choice: RadiusChoice, shape: AlphaShape | AlphaShape3D) -> dict[str, Any]:
+def _facts(made: _Made) -> dict[str, Any]:
     """Return the summary for scripts."""
     return {
-        "radius": choice.radius,
-        "rule": choice.rule,
-        "reason": choice.reason,
-        **shape.counts,
-        **_sizes(shape),
+        "radius": made.choice.radius,
+        "rule": made.choice.rule,
+        "reason": made.choice.reason,
+        **made.shape.counts,
+        **(_sizes(made.shape) if made.solid is None else made.solid.facts()),
     }
 
 
-def _sizes(shape: AlphaShape | AlphaShape3D) -> dict[str, Any]:
-    """Return how large a shape is, in the plane or in space."""
-    from alphamesh.simplices3d import SimplexSet3D
-
-    if not isinstance(shape, SimplexSet3D):
-        return {"area": shape.area, "perimeter": shape.perimeter}
-    return {
-        "volume": shape.volume,
-        "surface_area": shape.surface_area,
-        "regions": len(shape.regions),
-        "region_volumes": shape.regions.volumes,
-        "voids": len(shape.voids),
-        "void_volumes": shape.voids.volumes,
-    }
+def _sizes(shape: AlphaShape) -> dict[str, Any]:
+    return {"area": shape.area, "perimeter": shape.perimeter}
 
 
-def _lines(choice: RadiusChoice, shape: AlphaShape | AlphaShape3D) -> dict[str, str]:
+def _lines(made: _Made) -> dict[str, str]:
     """Return the summary for people."""
+    shape = made.shape
     told = ("tetrahedra", "triangles", "singular_triangles", "singular_edges")
     counts = {
         name.replace("_", " ").capitalize(): f"{shape.counts[name]:,}"
         for name in (*told, "isolated_vertices")
         if name in shape.counts and (name != "triangles" or "tetrahedra" not in shape.counts)
     }
-    texts = {
-        "area": area_text,
-        "perimeter": length_text,
-        "volume": volume_text,
-        "surface_area": area_text,
-        "regions": "{:,}".format,
-        "voids": "{:,}".format,
-    }
-    sizes = {
-        name.replace("_", " ").capitalize(): texts[name](size)
-        for name, size in _sizes(shape).items()
-        if name in texts
-    }
-    return {"Radius": radius_text(choice), "": choice.reason, **counts, **sizes}
+    if made.solid is not None:
+        sizes = made.solid.lines()
+    else:
+        sizes = {"Area": area_text(shape.area), "Perimeter": length_text(shape.perimeter)}
+    return {"Radius": radius_text(made.choice), "": made.choice.reason, **counts, **sizes}

@@ -21,14 +21,23 @@ from alphamesh.cli.command import Command
 from alphamesh.cli.files import FigureFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
+from alphamesh.cli.solids import refuse_solid_options, solid_at, solid_options
 from alphamesh.cli.types import Rule
+from alphamesh.errors import DimensionError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from alphamesh.complex import AlphaComplex
+    from alphamesh.solid import SolidShape
 
 __all__ = ["VIEWS", "command", "figure_of"]
+
+# Views that are there in space, too; for others, a third coordinate is left out.
+_IN_SPACE = ("overview", "cloud", "complex", "surface", "diagram", "barcode", "betti")
+
+# Those of them that show a shape.
+_OF_SOLIDS = ("overview", "complex", "surface")
 
 # Each view by its name, and whether it shows a radius.
 VIEWS: dict[str, bool] = {
@@ -45,6 +54,7 @@ VIEWS: dict[str, bool] = {
     "restricted": True,
     "union": True,
     "complex": True,
+    "surface": True,
     "diagram": True,
     "barcode": True,
     "betti": True,
@@ -54,6 +64,7 @@ _EXAMPLES = (
     "alphamesh plot shape.png -o story.png",
     "alphamesh plot points.csv --view restricted --radius 0.5 -o cells.svg",
     "alphamesh plot demo:cheese -n 20000 --view betti -o betti.pdf",
+    "alphamesh plot demo:trefoil-surface --view surface -o knot.png",
 )
 
 
@@ -63,11 +74,13 @@ _EXAMPLES = (
 @click.option(
     "--view",
     type=click.Choice(list(VIEWS)),
-    default="story",
-    show_default=True,
-    help="What to draw: story is hull, Voronoi, Delaunay, cut cells and complex together.",
+    metavar="VIEW",
+    help=f"What to draw: {', '.join(VIEWS)}. The story is hull, Voronoi, Delaunay, cut "
+    f"cells and complex together; in space there are {', '.join(_IN_SPACE)}.  "
+    "[default: story; in space, overview]",
 )
 @radius_option
+@solid_options
 @click.option(
     "--dpi",
     type=click.FloatRange(20, 1200),
@@ -78,7 +91,7 @@ _EXAMPLES = (
 def command(
     source: str,
     pictures: tuple[Path, ...],
-    view: str,
+    view: str | None,
     radius: float | Rule,
     dpi: float | None,
     **options: Any,
@@ -86,24 +99,34 @@ def command(
     """Draw one picture of a cloud.
 
     INPUT is a mask image, a file of points, "-" for a table on standard input,
-    or demo:NAME for a built-in shape. Some views show one radius: it is chosen
-    unless given.
+    or demo:NAME for a built-in shape or solid. Some views show one radius: it is
+    chosen unless given.
     """
     check_targets(pictures, source)
     need_matplotlib()
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        job = Job.begin(source, options, steps)
+        job = Job.begin(source, options, steps, space=view is None or view in _IN_SPACE)
+        in_space = job.complex.points.shape[1] == 3
+        view = view or ("overview" if in_space else "story")
+        _check_view(view, in_space)
         facts: dict[str, Any] = {"view": view}
         lines = {"View": view}
-        chosen = None
-        if VIEWS[view]:
-            choice = job.choose(radius, steps)
-            chosen = choice.radius
-            facts.update(radius=chosen, rule=choice.rule)
+        choice = solid = None
+        if in_space and view in _OF_SOLIDS:
+            choice, solid = solid_at(job, {**options, "radius": radius}, steps)
+        else:
+            refuse_solid_options(options, f"the view {view} of {source}")
+            if VIEWS[view]:
+                choice = job.choose(radius, steps)
+        if choice is not None:
+            facts.update(radius=choice.radius, rule=choice.rule)
             lines["Radius"] = radius_text(choice)
         with steps.step("Drawing"):
-            figure = figure_of(view, job.complex, chosen)
+            if solid is not None:
+                figure = _solid_figure(view, solid.shape)
+            else:
+                figure = figure_of(view, job.complex, choice.radius if choice else None)
         files = [
             Output(path, lambda path: save_figure(figure, path, dpi), ".png")
             for path in pictures
@@ -112,9 +135,32 @@ def command(
     job.tell(facts, lines, outputs)
 
 
+def _check_view(view: str, in_space: bool) -> None:
+    if in_space and view not in _IN_SPACE:
+        raise DimensionError(
+            f"the view {view} is for points in the plane, and these are in space; choose two "
+            f"columns with --columns, or one of: {', '.join(_IN_SPACE)}"
+        )
+    if view == "surface" and not in_space:
+        raise DimensionError("the view surface is for points in space; take complex")
+
+
+def _solid_figure(view: str, shape: SolidShape) -> Figure:
+    """Return the figure of a shape in space."""
+    from alphamesh import plot
+    from alphamesh.plot.overview3d import plot_shape_in_space
+
+    if view == "overview":
+        return plot_shape_in_space(shape)
+    if view == "surface":
+        return plot.plot_surface(shape.surface()).figure
+    return plot.plot_solid(shape).figure
+
+
 def figure_of(view: str, built: AlphaComplex, radius: float | None) -> Figure:
     """Return the figure of a view; `radius` is needed by those that show one."""
     from alphamesh import plot
+    from alphamesh.complex3d import AlphaComplex3D
     from alphamesh.frame import framed_delaunay
 
     composed: dict[str, Callable[[], Figure]] = {
@@ -126,7 +172,11 @@ def figure_of(view: str, built: AlphaComplex, radius: float | None) -> Figure:
     if view in composed:
         return composed[view]()
     single: dict[str, Callable[[], plot.Drawing]] = {
-        "cloud": lambda: plot.plot_cloud(built.points),
+        "cloud": lambda: (
+            plot.plot_cloud_in_space(built.points)
+            if isinstance(built, AlphaComplex3D)
+            else plot.plot_cloud(built.points)
+        ),
         "hull": lambda: plot.plot_hull(built.convex_hull),
         "voronoi": lambda: plot.plot_voronoi(built.voronoi),
         "delaunay": lambda: plot.plot_delaunay(built.delaunay),

@@ -13,8 +13,8 @@ from alphamesh.cli.command import Command
 from alphamesh.cli.files import TableFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
-from alphamesh.cli.shaping import shape_at, shape_options
-from alphamesh.cli.summary import area_text, length_text, number, print_table
+from alphamesh.cli.shaping import any_shape_at, any_shape_options
+from alphamesh.cli.summary import area_text, length_text, number, print_table, volume_text
 from alphamesh.cli.tables import write_table
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from alphamesh.planar import PlanarShape
     from alphamesh.radius import RadiusChoice
+    from alphamesh.solid import SolidShape
 
 __all__ = ["command"]
 
@@ -38,29 +39,63 @@ _EXAMPLES = (
 @click.command("regions", cls=Command, examples=_EXAMPLES)
 @source_argument
 @output_options(TableFile(".csv"), "Write the table here", name="tables")
-@click.option("--holes", "of_holes", is_flag=True, help="List the holes, not the regions.")
-@shape_options
+@click.option(
+    "--holes",
+    "of_holes",
+    is_flag=True,
+    help="List the holes, in space the voids, not the regions.",
+)
+@any_shape_options
 @cloud_options
 def command(source: str, tables: tuple[Path, ...], of_holes: bool, **options: Any) -> None:
-    """Measure the regions of a shape: sets of triangles connected by edges.
+    """Measure the regions of a shape: triangles connected by edges, or solid pieces.
 
     INPUT is a mask image, a file of points, "-" for standard input, or demo:NAME
     for a built-in shape. The table has one line for each region, the largest
     first: area, perimeter, centroid, holes and triangles; or, with --holes, for
-    each hole: area, perimeter and the region around it (-1 if several are).
+    each hole: area, perimeter and the region around it (-1 if several are). In
+    space: volume, surface area, centroid and tetrahedra, of regions or of voids.
     """
+    from alphamesh.solid import SolidShape
+
     check_targets(tables, source)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        job = Job.begin(source, options, steps)
-        choice, shape = shape_at(job, options, steps)
-        columns = _holes(shape) if of_holes else _regions(shape)
+        job = Job.begin(source, options, steps, space=True)
+        choice, shape = any_shape_at(job, options, steps)
+        columns = _columns(shape, of_holes)
         files = [Output(path, lambda path: write_table(path, columns)) for path in tables]
         outputs.write(files, steps)
-    facts, lines = _told(choice, shape)
+    if isinstance(shape, SolidShape):
+        facts, lines = _told_in_space(choice, shape)
+    else:
+        facts, lines = _told(choice, shape)
     job.tell({**facts, "holes" if of_holes else "regions": _records(columns)}, lines, outputs)
     if not (tables or options["as_json"]):
         _show(columns)
+
+
+def _columns(shape: PlanarShape | SolidShape, of_holes: bool) -> dict[str, NDArray[Any]]:
+    from alphamesh.solid import SolidShape
+
+    if not isinstance(shape, SolidShape):
+        return _holes(shape) if of_holes else _regions(shape)
+    if of_holes:
+        voids = shape.voids
+        return {
+            "void": np.arange(len(voids)),
+            "volume": voids.volumes,
+            "surface_area": voids.surface_areas,
+            "tetrahedra": voids.tetrahedron_counts,
+        }
+    found = shape.regions
+    return {
+        "region": np.arange(len(found)),
+        "volume": found.volumes,
+        "surface_area": found.surface_areas,
+        **{f"centroid_{axis}": found.centroids[:, k] for k, axis in enumerate("xyz")},
+        "tetrahedra": found.tetrahedron_counts,
+    }
 
 
 def _regions(shape: PlanarShape) -> dict[str, NDArray[Any]]:
@@ -101,6 +136,27 @@ def _told(choice: RadiusChoice, shape: PlanarShape) -> tuple[dict[str, Any], dic
         "Holes": f"{len(shape.holes):,}",
         "Area": area_text(shape.area),
         "Perimeter": length_text(shape.perimeter),
+    }
+    return facts, lines
+
+
+def _told_in_space(
+    choice: RadiusChoice, shape: SolidShape
+) -> tuple[dict[str, Any], dict[str, str]]:
+    facts = {
+        "radius": choice.radius,
+        "rule": choice.rule,
+        "region_count": len(shape.regions),
+        "void_count": len(shape.voids),
+        "volume": shape.volume,
+        "surface_area": shape.surface_area,
+    }
+    lines = {
+        "Radius": radius_text(choice),
+        "Regions": f"{len(shape.regions):,}",
+        "Voids": f"{len(shape.voids):,}",
+        "Volume": volume_text(shape.volume),
+        "Surface area": area_text(shape.surface_area),
     }
     return facts, lines
 

@@ -22,6 +22,7 @@ _EXAMPLES = (
     "alphamesh sample shape.png --points 5000 -o cloud.csv",
     "alphamesh sample scan.tif --threshold 0.2 --seed 3 -o cloud.npy -o cloud.csv",
     "alphamesh sample demo:target -o - | alphamesh info -",
+    "alphamesh sample demo:torus-surface -n 5000 -o scan.ply",
 )
 
 
@@ -33,10 +34,11 @@ _EXAMPLES = (
 @json_option
 @quiet_option
 def command(source: str, files: tuple[Path, ...], **options: Any) -> None:
-    """Draw points from the white pixels of a mask image.
+    """Draw points from the white pixels of a mask image, or from a demo solid.
 
-    IMAGE is any image that Pillow reads, or demo:NAME for a built-in shape.
-    Coordinates are in pixels, x to the right and y upwards, from the lower
+    IMAGE is any image that Pillow reads, or demo:NAME for a built-in shape, or for
+    a solid in space such as demo:torus; demo:torus-surface draws from its surface.
+    Coordinates in an image are in pixels, x to the right and y upwards, from the lower
     left corner of the image.
     """
     as_json, quiet = options.pop("as_json"), options.pop("quiet")

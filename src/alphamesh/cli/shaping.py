@@ -9,12 +9,14 @@ import click
 
 from alphamesh.cli.building import Job, radius_option
 from alphamesh.cli.progress import Steps
+from alphamesh.cli.solids import refuse_solid_options, solid_at, void_options
 
 if TYPE_CHECKING:
     from alphamesh.planar import PlanarShape
     from alphamesh.radius import RadiusChoice
+    from alphamesh.solid import SolidShape
 
-__all__ = ["shape_at", "shape_options"]
+__all__ = ["any_shape_at", "any_shape_options", "shape_at", "shape_options"]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -63,3 +65,25 @@ def shape_at(
             )
         len(shape.regions)
     return choice, shape
+
+
+def any_shape_options(command: Function) -> Function:
+    """Add the options that `any_shape_at` understands."""
+    return shape_options(void_options(command))
+
+
+def any_shape_at(
+    job: Job, options: dict[str, Any], steps: Steps
+) -> tuple[RadiusChoice, PlanarShape | SolidShape]:
+    """Return the radius that `options` ask for, and the shape there, in plane or space."""
+    if job.complex.points.shape[1] == 2:
+        refuse_solid_options(options, "INPUT", but=("largest",))
+        return shape_at(job, options, steps)
+    for name, flag in (("fill_holes", "--fill-holes"), ("min_area", "--min-area")):
+        if options[name] is not None:
+            raise click.UsageError(
+                f"{flag} is for points in the plane, and these are in space: take "
+                "--fill-voids or --min-volume"
+            )
+    choice, solid = solid_at(job, options, steps)
+    return choice, solid.shape

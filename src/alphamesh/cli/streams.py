@@ -32,6 +32,8 @@ _SIGNATURES = (
     (b"MM\x00*", ".tif"),
     (b"SQLite format 3\x00", ".gpkg"),
     (b"fgb", ".fgb"),
+    (b"# .PCD", ".pcd"),
+    (b"LASF", ".las"),
     (b"<?xml", ".vtu"),
     (b"<VTKFile", ".vtu"),
     (b"# vtk DataFile", ".vtk"),

@@ -22,6 +22,7 @@ __all__ = [
     "RadiusType",
     "Rule",
     "RuleName",
+    "SizeType",
     "SourceType",
 ]
 
@@ -203,6 +204,24 @@ class ColumnsType(ParamType):
         if len(names) not in {2, 3} or not all(names):
             self.fail(f"{value!r} is not two or three columns, such as x,y or 0,1,2")
         return tuple(int(name) if name.isdigit() else name for name in names)
+
+
+class SizeType(ParamType):
+    """An area or a volume of at least 0; ``all`` is larger than any."""
+
+    name = "size"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """Return the number."""
+        try:
+            size = float("inf" if value == "all" else value)
+        except ValueError:
+            size = -1.0
+        if not size >= 0:
+            self.fail(f"{value!r} is neither a number of at least 0 nor all", param, ctx)
+        return size
 
 
 class AggregateType(ParamType):

@@ -84,6 +84,19 @@ def _ply(points: Points, file: BinaryIO) -> None:
     file.write(in_space.tobytes())
 
 
+def _pcd(points: Points, file: BinaryIO) -> None:
+    """Write float64 coordinates, binary; flat points get z = 0, as in PLY files."""
+    in_space = np.zeros((len(points), 3))
+    in_space[:, : points.shape[1]] = points
+    file.write(
+        "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+        "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\n"
+        f"WIDTH {len(points)}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n"
+        f"POINTS {len(points)}\nDATA binary\n".encode()
+    )
+    file.write(in_space.astype("<f8").tobytes())
+
+
 POINT_WRITERS: Mapping[str, Callable[[Points, BinaryIO], None]] = MappingProxyType(
     {
         ".csv": _table(","),
@@ -94,6 +107,7 @@ POINT_WRITERS: Mapping[str, Callable[[Points, BinaryIO], None]] = MappingProxyTy
         ".npz": _npz,
         ".parquet": _parquet,
         ".ply": _ply,
+        ".pcd": _pcd,
     }
 )
 """How to write each format, by file extension."""

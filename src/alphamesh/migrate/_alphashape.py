@@ -6,6 +6,8 @@ from typing import Any
 
 from alphamesh import _geopoints, _shapely
 from alphamesh.complex import AlphaComplex
+from alphamesh.complex3d import AlphaComplex3D
+from alphamesh.errors import MissingLibraryError
 from alphamesh.migrate._radius import alpha_of, just_below
 from alphamesh.points import Cloud, as_cloud
 
@@ -19,25 +21,27 @@ def alphashape(points: Any, alpha: float | None = None) -> Any:
 
     Parameters
     ----------
-    points : array-like of shape (n, 2), shapely.MultiPoint, GeoDataFrame or GeoSeries
+    points : array-like of shape (n, 2) or (n, 3), MultiPoint, GeoDataFrame or GeoSeries
     alpha : float, optional
-        One over the radius: triangles of a radius below ``1 / alpha`` are kept. By
-        default what :func:`optimizealpha` returns. 0 or less gives the convex hull, and
-        so do fewer than four points.
+        One over the radius: triangles, in space tetrahedra, of a radius below
+        ``1 / alpha`` are kept. By default what :func:`optimizealpha` returns. 0 or less
+        gives the convex hull, and so do fewer than four points.
 
     Returns
     -------
     shapely.Polygon, MultiPolygon, LineString, Point or GeometryCollection
         A GeoDataFrame of one row for a GeoDataFrame with a reference system.
+    trimesh.Trimesh
+        For four or more points in space: the boundary of the tetrahedra.
 
     Raises
     ------
     ParameterError
         If `alpha` is not a number.
     CloudShapeError, NonFiniteError, CoordinateRangeError
-        If `points` are no points in the plane.
+        If `points` are no points in the plane or in space.
     MissingLibraryError
-        If shapely is not installed.
+        If shapely, or trimesh for points in space, is not installed.
 
     Notes
     -----
@@ -46,10 +50,13 @@ def alphashape(points: Any, alpha: float | None = None) -> Any:
     - Holes are kept. There they are filled, as it takes the union of all polygons that
       the boundary edges enclose. To fill them: ``shape.filtered(max_hole_area=inf)``.
     - Decisions are exact; there, Qhull and the radii are rounded.
-    - `alpha` cannot be a function of the triangle, and points are in the plane; for points
-      in space, see :func:`create_from_point_cloud_alpha_shape`.
+    - `alpha` cannot be a function of the triangle.
+    - In space, voids are kept there, too, and the triangles around them face into them; an
+      `alpha` of 0 gives the convex hull in space, where alphashape has that in the plane.
     """
-    cloud = as_cloud(points, 2)
+    cloud = _cloud(points)
+    if cloud.points.shape[1] == 3 and len(cloud) >= 4:
+        return _in_space(cloud, alpha)
     shapely = _shapely.library(_PURPOSE)
     few = len(cloud) < 4
     best = 0.0 if few or alpha is not None else optimizealpha(cloud)
@@ -68,6 +75,25 @@ def alphashape(points: Any, alpha: float | None = None) -> Any:
     return made
 
 
+def _cloud(points: Any) -> Cloud:
+    """Return the points, those of geometries without their z."""
+    if isinstance(points, Cloud):
+        return points
+    is_geometry = hasattr(points, "geom_type") or hasattr(points, "crs")
+    return as_cloud(points, 2 if is_geometry else None)
+
+
+def _in_space(cloud: Cloud, alpha: float | None) -> Any:
+    try:
+        import trimesh
+    except ImportError as error:
+        raise MissingLibraryError.of("trimesh", "trimesh", "alphashape in space") from error
+    value = optimizealpha(cloud) if alpha is None else alpha_of(alpha)
+    shape = AlphaComplex3D(cloud.points).at(just_below(value))
+    # As there: vertices in use, equal ones merged.
+    return trimesh.Trimesh(vertices=shape.points, faces=shape.boundary_triangles)
+
+
 def optimizealpha(points: Any) -> float:
     """Return the largest alpha that leaves no point out and gives one piece.
 
@@ -78,7 +104,8 @@ def optimizealpha(points: Any) -> float:
     Returns
     -------
     float
-        0, for the convex hull, if there is none: where the points are on one line.
+        0, for the convex hull, if there is none: where the points are on one line, or,
+        in space, in one plane.
 
     Notes
     -----
@@ -86,8 +113,8 @@ def optimizealpha(points: Any) -> float:
     down as alpha grows. With version 2 of shapely it fails. Here, it is the rule
     ``"one-region"`` of :func:`alphamesh.choose_radius`, in one pass.
     """
-    cx = AlphaComplex(Cloud(as_cloud(points, 2).points))
-    if cx.dimension < 2:
+    cx = AlphaComplex(Cloud(_cloud(points).points))
+    if cx.dimension < cx.points.shape[1]:
         return 0.0
     radius = cx.choose_radius("one-region").radius
     alpha = 1.0 / radius

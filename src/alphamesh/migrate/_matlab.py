@@ -8,13 +8,14 @@ import numpy as np
 
 from alphamesh._arrays import read_only
 from alphamesh.complex import AlphaComplex
-from alphamesh.errors import ParameterError
+from alphamesh.errors import DimensionError, ParameterError
+from alphamesh.location3d import as_queries_in_space
 from alphamesh.points import as_cloud
 from alphamesh.queries import as_queries, edge_tree, nearest_edges
+from alphamesh.queries3d import nearest_triangles, surface_tree
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray, IntArray
-    from alphamesh.planar import Selection
 
 __all__ = ["alphaShape"]
 
@@ -26,29 +27,30 @@ class alphaShape:  # noqa: N801 - MATLAB's own name
 
     Parameters
     ----------
-    P : array-like of shape (n, 2)
+    P : array-like of shape (n, 2) or (n, 3)
     a : float, optional
         The alpha radius; by default the smallest one that leaves no point out,
         ``criticalAlpha("all-points")``.
     HoleThreshold : float, default 0
-        Fill holes of at most this area.
+        Fill holes of at most this area; in space, voids of at most this volume.
     RegionThreshold : float, default 0
-        Leave out regions of a smaller area.
+        Leave out regions of a smaller area; in space, of a smaller volume.
 
     Raises
     ------
     ParameterError
         If `a` or a threshold is negative or NaN.
     CloudShapeError, NonFiniteError, CoordinateRangeError
-        If `P` are no points in the plane.
+        If `P` are no points in the plane or in space.
 
     Notes
     -----
     Differences from MATLAB: rows, regions and triangles count from 0; duplicates stay in
     `Points` and are merged in results; regions are numbered by area, the largest first;
     decisions are exact. Of `boundaryFacets` the edges run counter-clockwise, with the
-    shape on their left. Points on one line give a shape without area, no error. Points are
-    in the plane; for those in space, see :class:`alphamesh.AlphaComplex3D`.
+    shape on their left, and the triangles counter-clockwise as seen from outside. Points
+    on one line give a shape without area, and points in space that lie in one plane a shape
+    without volume, no error.
 
     Examples
     --------
@@ -66,16 +68,16 @@ class alphaShape:  # noqa: N801 - MATLAB's own name
         HoleThreshold: float = 0.0,
         RegionThreshold: float = 0.0,
     ) -> None:
-        self._complex = AlphaComplex(as_cloud(P, 2))
+        self._complex = AlphaComplex(as_cloud(P))
         self._thresholds = HoleThreshold, RegionThreshold
-        self._shape: Selection
+        self._shape: Any
         self.Alpha = self.criticalAlpha("all-points") if a is None else a
 
     # Properties
 
     @property
     def Points(self) -> FloatArray:  # noqa: N802
-        """The points, ``(n, 2)`` float64."""
+        """The points, ``(n, 2)`` or ``(n, 3)`` float64."""
         return self._complex.points
 
     @property
@@ -90,26 +92,33 @@ class alphaShape:  # noqa: N801 - MATLAB's own name
 
     @property
     def HoleThreshold(self) -> float:  # noqa: N802
-        """Holes of at most this area are filled; it can be set."""
+        """Holes of at most this area, or volume, are filled; it can be set."""
         return self._thresholds[0]
 
     @HoleThreshold.setter
-    def HoleThreshold(self, area: float) -> None:  # noqa: N802
-        self._shape = self._at(self._alpha, area, self._thresholds[1])
-        self._thresholds = area, self._thresholds[1]
+    def HoleThreshold(self, size: float) -> None:  # noqa: N802
+        self._shape = self._at(self._alpha, size, self._thresholds[1])
+        self._thresholds = size, self._thresholds[1]
 
     @property
     def RegionThreshold(self) -> float:  # noqa: N802
-        """Regions of a smaller area are left out; it can be set."""
+        """Regions of a smaller area, or volume, are left out; it can be set."""
         return self._thresholds[1]
 
     @RegionThreshold.setter
-    def RegionThreshold(self, area: float) -> None:  # noqa: N802
-        self._shape = self._at(self._alpha, self._thresholds[0], area)
-        self._thresholds = self._thresholds[0], area
+    def RegionThreshold(self, size: float) -> None:  # noqa: N802
+        self._shape = self._at(self._alpha, self._thresholds[0], size)
+        self._thresholds = self._thresholds[0], size
 
-    def _at(self, radius: float, hole: float, region: float) -> Selection:
-        shape = self._complex.at(radius)
+    @property
+    def _in_space(self) -> bool:
+        return bool(self.Points.shape[1] == 3)
+
+    def _at(self, radius: float, hole: float, region: float) -> Any:
+        shape: Any = self._complex.at(radius)
+        if self._in_space:
+            # Voids are those of the tetrahedra, whatever triangles there are besides.
+            return shape.filtered().filtered(max_void_volume=hole, min_region_volume=region)
         return shape.filtered(max_hole_area=hole, min_region_area=region)
 
     # Functions
@@ -136,32 +145,55 @@ class alphaShape:  # noqa: N801 - MATLAB's own name
 
     def alphaSpectrum(self) -> FloatArray:  # noqa: N802
         """Return the radii at which the shape changes, descending, ``(k,)`` float64."""
-        return read_only(np.unique(self._complex.radii[2])[::-1])
+        return read_only(np.unique(self._complex.radii[-1])[::-1])
 
     def alphaTriangulation(self, RegionID: int | None = None) -> IntArray:  # noqa: N802
-        """Return the triangles, of one region or of all, ``(k, 3)`` int32."""
-        return self._region(RegionID).triangles
+        """Return the triangles or tetrahedra, of one region or of all, ``(k, d + 1)`` int32."""
+        shape = self._region(RegionID)
+        found: IntArray = shape.tetrahedra if self._in_space else shape.triangles
+        return found
 
     def boundaryFacets(  # noqa: N802
         self,
         RegionID: int | None = None,
     ) -> tuple[IntArray, FloatArray]:
-        """Return the edges of the boundary, and the points that they are rows of.
+        """Return the boundary, edges or triangles, and the points that they are rows of.
 
         Returns
         -------
-        bf : (k, 2) int32
-        P : (n, 2) float64
+        bf : (k, d) int32
+        P : (n, d) float64
         """
-        return self._region(RegionID).boundary_edges, self.Points
+        return self._facets(self._region(RegionID)), self.Points
+
+    def _facets(self, shape: Any) -> IntArray:
+        found: IntArray = shape.boundary_triangles if self._in_space else shape.boundary_edges
+        return found
 
     def area(self, RegionID: int | None = None) -> float:
-        """Return the area, of one region or of all."""
-        return self._region(RegionID).area
+        """Return the area, of one region or of all; of a shape in the plane."""
+        self._require(2, "area", "volume and surfaceArea")
+        return float(self._region(RegionID).area)
 
     def perimeter(self, RegionID: int | None = None) -> float:
-        """Return the length of the boundary, of one region or of all."""
-        return self._region(RegionID).perimeter
+        """Return the length of the boundary, of one region or of all; in the plane."""
+        self._require(2, "perimeter", "surfaceArea")
+        return float(self._region(RegionID).perimeter)
+
+    def volume(self, RegionID: int | None = None) -> float:
+        """Return the volume, of one region or of all; of a shape in space."""
+        self._require(3, "volume", "area")
+        return float(self._region(RegionID).volume)
+
+    def surfaceArea(self, RegionID: int | None = None) -> float:  # noqa: N802
+        """Return the area of the boundary, of one region or of all; in space."""
+        self._require(3, "surfaceArea", "perimeter")
+        return float(self._region(RegionID).surface_area)
+
+    def _require(self, columns: int, name: str, instead: str) -> None:
+        if self.Points.shape[1] != columns:
+            where = "the plane" if columns == 2 else "space"
+            raise DimensionError(f"{name} is for points in {where}; take {instead}")
 
     def numRegions(self) -> int:  # noqa: N802
         """Return the number of regions."""
@@ -169,7 +201,8 @@ class alphaShape:  # noqa: N801 - MATLAB's own name
 
     def inShape(self, QP: Any, RegionID: int | None = None) -> BoolArray:  # noqa: N802
         """Return which points of `QP` lie in the shape, borders included, ``(q,)`` bool."""
-        return self._region(RegionID).contains(QP)
+        found: BoolArray = self._region(RegionID).contains(QP)
+        return found
 
     def nearestNeighbor(self, QP: Any) -> tuple[IntArray, FloatArray]:  # noqa: N802
         """Return the nearest corner of the boundary to each point, and how far it is.
@@ -185,20 +218,24 @@ class alphaShape:  # noqa: N801 - MATLAB's own name
         ParameterError
             If the shape has no boundary.
         """
-        edges = self._shape.boundary_edges
-        if len(edges) == 0:
+        facets = self._facets(self._shape)
+        if len(facets) == 0:
             raise ParameterError("the shape has no boundary; choose a larger Alpha")
-        # Each corner as an edge without length.
-        corners = np.unique(edges)
-        tree = edge_tree(self.Points, np.column_stack((corners, corners)).astype(np.int32))
-        found = nearest_edges(tree, as_queries(QP))
-        return read_only(corners[found.edges].astype(np.int32)), found.distances
+        # Each corner as an edge without length, or as a triangle without area.
+        corners = np.unique(facets).astype(np.int32)
+        pointed = np.repeat(corners[:, np.newaxis], facets.shape[1], axis=1)
+        if self._in_space:
+            in_space = surface_tree(self.Points, pointed)
+            near = nearest_triangles(in_space, as_queries_in_space(QP))
+            return read_only(corners[near.triangles]), near.distances
+        found = nearest_edges(edge_tree(self.Points, pointed), as_queries(QP))
+        return read_only(corners[found.edges]), found.distances
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the shape on matplotlib axes."""
         return self._shape.plot(ax)
 
-    def _region(self, number: int | None) -> Selection:
+    def _region(self, number: int | None) -> Any:
         return self._shape if number is None else self._shape.select([number])
 
     def __repr__(self) -> str:

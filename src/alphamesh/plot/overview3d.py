@@ -21,8 +21,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from alphamesh.filtration3d import Filtration3D
+    from alphamesh.solid import SolidShape
 
-__all__ = ["plot_cloud_in_space", "plot_overview_in_space"]
+__all__ = ["plot_cloud_in_space", "plot_overview_in_space", "plot_shape_in_space"]
 
 # Beyond this many points a vector file becomes slow to open: pixels instead.
 _RASTER_FROM = 20_000
@@ -87,7 +88,22 @@ def plot_overview_in_space(filtration: Filtration3D, radius: float | None = None
     """
     if radius is None:
         radius = choose_radius(filtration).radius
-    shape = AlphaShape3D(filtration, radius)
+    return plot_shape_in_space(AlphaShape3D(filtration, radius))
+
+
+def plot_shape_in_space(shape: SolidShape) -> Figure:
+    """Draw the cloud of a shape in space, the shape, and that cut open, side by side.
+
+    Parameters
+    ----------
+    shape : AlphaShape3D or Selection3D
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A new figure with three axes.
+    """
+    filtration = shape.filtration
     figure, (left, middle, right) = panels(_SQUARE, 3)
     plot_cloud_in_space(filtration.points, left)
     duplicates = len(filtration.points) - len(filtration.simplices[0])
@@ -100,7 +116,8 @@ def plot_overview_in_space(filtration: Filtration3D, radius: float | None = None
     lone = counts["singular_triangles"]
     text = counted(counts["tetrahedra"], "tetrahedron", "tetrahedra")
     text = f"{text}, {counted(lone, 'triangle')} besides" if lone else text
-    add_title(middle, f"Alpha complex, radius {radius:.4g}", text)
+    what = "Alpha complex" if isinstance(shape, AlphaShape3D) else "Solid"
+    add_title(middle, f"{what}, radius {shape.radius:.4g}", text)
     plot_solid(shape, right, cut="-y")
     text = f"{counted(len(shape.regions), 'region')}, {counted(len(shape.voids), 'void')}"
     add_title(right, "Cut open", text)

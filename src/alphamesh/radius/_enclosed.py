@@ -44,8 +44,8 @@ def _enclosed(filtration: Filtration3D, share: float = 1.0) -> RadiusChoice:
     reason = (
         f"This is the smallest radius at which the complex closes around {found:,} of the "
         f"{count:,} points: its voids filled, each of them is a corner of some tetrahedron. "
-        "Where the points lie on a surface, it has no gap left; fill the voids, and take the "
-        "boundary: filtered(max_void_volume=numpy.inf).surface()."
+        "Where the points lie on a surface, it has no gap left: with the voids filled, its "
+        "boundary is that surface."
     )
     return RadiusChoice(radius, "enclosed", reason)
 
