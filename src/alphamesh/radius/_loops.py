@@ -24,6 +24,9 @@ _ALIKE = float(np.exp(0.5))
 _DOUBT = 0.3
 # Edges around a hole, over the square root of its content: 2 pi / sqrt(log 2) / 2.
 _AROUND = 32.0
+# A void that is there until a radius this many times that of its birth is there for long.
+_LASTING = 1.05
+_MOMENT = 1e-9
 
 
 class Loops(NamedTuple):
@@ -82,6 +85,9 @@ def weighed_loops(
     else:  # so may the triangle that closes a void, by filling a loop
         expected = chance(density.dimension, 1, closed_at, places)
         bridge = -np.log(log_range(n) * closed_at) - expected
+        # A wide void falls apart just before it is filled; its parts live for a moment.
+        part = np.log(_LASTING) / np.maximum(np.log(deaths) - np.log(births), _MOMENT)
+        bridge = np.where(part > 1.0, np.maximum(bridge, np.log(part)), bridge)
     first = _latest_corner(pairs, cycles, creators)
     by_outliers = outliers.chance(density.content(first, edges))
     plausible = (bridge < 0.0) & (by_outliers < 0.5)
