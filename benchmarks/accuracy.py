@@ -147,7 +147,7 @@ def report(outcomes: Sequence[Outcome], half: str) -> str:
         (
             intro,
             accuracy_table([(kind, together, _of(large, kind=kind)) for kind in KINDS]),
-            _table(
+            accuracy_table(
                 [
                     (kind, f"{n:,}", _of(outcomes, kind=kind, n=n))
                     for kind in KINDS

@@ -36,7 +36,7 @@ def test_meshes_of_solids(run, name):
     pytest.importorskip("meshio")
     told = json.loads(run("mesh", name, "-o", "solid.vtu", "-o", "solid.off", "--json"))
     shape = am.AlphaComplex(am.read_points(name)).at()
-    assert told["dimension"] == 3 and told["rule"] == "all-points"
+    assert told["dimension"] == 3 and told["rule"] == "topology"
     assert told["radius"] == shape.radius
     assert (
         told["tetrahedra"]

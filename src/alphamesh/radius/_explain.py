@@ -132,9 +132,7 @@ def _holes_sentence(findings: Findings) -> str:
     if one:
         which = f"The {there[0][1]}"
     else:
-        which = " and ".join(
-            f"{'' if k else 'the '}{_the(*pair)}" for k, pair in enumerate(there)
-        )
+        which = " and ".join(f"the {_the(*pair)}" for pair in there)
     if not findings.clear:
         which = which if one else f"The smallest of {which}"
         return f"{which} would have room for about {room}."
