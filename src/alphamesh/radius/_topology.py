@@ -142,14 +142,13 @@ def _best(pairs: Persistence, stages: Stages, eligible: BoolArray) -> RadiusChoi
     accidents = int(np.count_nonzero(there & accidental))
     points = len(pairs.filtration.simplices[0])
     clear = confidence >= _CLEAR and accidents == 0 and points >= _FEW
-    after = np.flatnonzero((stages.low >= high) & stages.allowed)
     findings = Findings(
         points,
         pairs.filtration.dimension,
         interval,
         stages.noise,
         float(stages.loops.contents.compress(there).min(initial=np.inf)),
-        _numbers(stages.betti[after[0] if len(after) else stage] - stages.betti[stage]),
+        _next_change(stages, stage, high),
         strays,
         accidents,
         confidence,
@@ -168,6 +167,18 @@ def _best(pairs: Persistence, stages: Stages, eligible: BoolArray) -> RadiusChoi
         clear=clear,
         strays=strays,
     )
+
+
+def _next_change(stages: Stages, stage: int, high: float) -> tuple[int, ...]:
+    """Return how the numbers change from a stage to what follows its range."""
+    change = stages.betti - stages.betti[stage]
+    after = stages.low >= high
+    # A narrow range is passed over, unless all is as before then.
+    for following in (after & stages.allowed, after):
+        first = int(np.argmax(following))
+        if following[first] and change[first].any():
+            return _numbers(change[first])
+    return _numbers(change[stage])
 
 
 def _first_wide(stages: Stages, weight: FloatArray) -> int:
