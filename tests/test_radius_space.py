@@ -52,6 +52,10 @@ def test_whether_points_lie_on_a_surface_can_be_told():
     found, told = solid.choose_radius(), solid.choose_radius(surface=True)
     assert solid.choose_radius(surface=False) == found
     assert "surface" in told.reason and told.reason != found.reason
+    plate = np.random.default_rng(0).random((5000, 3)) * [10.0, 10.0, 0.2]
+    thin = am.AlphaComplex(plate)
+    assert not thin.choose_radius().clear  # many tunnels: the gaps of a thin layer
+    assert thin.choose_radius(surface=True).betti == (1, 0, 0)
 
 
 @given(clouds3())
