@@ -22,7 +22,15 @@ from benchmarks.mask_clouds import KINDS, MaskCloud, outliers_of, sample_cloud, 
 from benchmarks.masks import DEVELOPMENT, REPORT, Region, draw_mask, room
 from benchmarks.tables import replace_between_markers
 
-__all__ = ["RIVALS", "Outcome", "main", "measure", "report"]
+__all__ = [
+    "RIVALS",
+    "Outcome",
+    "accuracy_table",
+    "clear_sentence",
+    "main",
+    "measure",
+    "report",
+]
 
 _HALVES: Mapping[str, Sequence[str]] = {"develop": tuple(DEVELOPMENT), "report": tuple(REPORT)}
 _SIZES = (300, 1_000, 3_000, 10_000)
@@ -138,15 +146,15 @@ def report(outcomes: Sequence[Outcome], half: str) -> str:
     return "\n\n".join(
         (
             intro,
-            _table([(kind, together, _of(large, kind=kind)) for kind in KINDS]),
-            _table(
+            accuracy_table([(kind, together, _of(large, kind=kind)) for kind in KINDS]),
+            accuracy_table(
                 [
                     (kind, f"{n:,}", _of(outcomes, kind=kind, n=n))
                     for kind in KINDS
                     for n in sizes
                 ]
             ),
-            _sentence(large),
+            clear_sentence(large),
         )
     )
 
@@ -155,8 +163,11 @@ def _of(outcomes: Iterable[Outcome], *, kind: str, n: int | None = None) -> list
     return [o for o in outcomes if o.kind == kind and n in (None, o.n)]
 
 
-def _table(rows: Iterable[tuple[str, str, list[Outcome]]]) -> str:
-    rules = (_TOPOLOGY, *RIVALS)
+def accuracy_table(
+    rows: Iterable[tuple[str, str, list[Outcome]]], rivals: Sequence[str] = RIVALS
+) -> str:
+    """Return a table with a row for each kind and size of clouds, and its outcomes."""
+    rules = (_TOPOLOGY, *rivals)
     head = ["cloud", "n", "clouds", "possible", *(f"`{rule}`" for rule in rules)]
     lines = [[*head, "resolved", "of these"], ["---", *["--:"] * (len(head) + 1)]]
     for kind, n, outcomes in rows:
@@ -184,7 +195,8 @@ def _percent(outcomes: Sequence[Outcome], holds: Callable[[Outcome], bool]) -> s
     return f"{100 * sum(map(holds, outcomes)) / len(outcomes):.1f}"
 
 
-def _sentence(outcomes: Sequence[Outcome]) -> str:
+def clear_sentence(outcomes: Sequence[Outcome]) -> str:
+    """Return how often the answers that "topology" calls clear are right."""
     clear = [o for o in outcomes if o.clear]
     unclear = [o for o in outcomes if not o.clear]
     return (
@@ -203,18 +215,32 @@ def main(arguments: Sequence[str] | None = None) -> int:
     add = parser.add_argument
     add("--tiny", action="store_true", help="few small clouds, in seconds")
     add("--half", choices=sorted(_HALVES), default="report", help="which half of the shapes")
-    add("--masks", type=int, default=40, help="masks of each family (default 40)")
+    add("--columns", type=int, choices=(2, 3), default=2, help="in the plane or in space")
+    add("--masks", type=int, default=40, help="masks or solids of each family (default 40)")
     add("--first", type=int, default=0, help="seed of the first mask")
     add("--write-docs", type=Path, metavar="DIR", help="put the tables into radius.md in DIR")
     options = parser.parse_args(arguments)
     masks, sizes = (1, _TINY_SIZES) if options.tiny else (options.masks, _SIZES)
     seeds = range(options.first, options.first + masks)
-    outcomes = list(measure(_HALVES[options.half], seeds, sizes))
-    text = report(outcomes, options.half)
+    if options.columns == 3:
+        text, markers = _in_space(options.half, seeds, sizes[1:]), "benchmark-space"
+    else:
+        text = report(list(measure(_HALVES[options.half], seeds, sizes)), options.half)
+        markers = "benchmark"
     if options.write_docs:
-        replace_between_markers(options.write_docs / "radius.md", text)
+        replace_between_markers(options.write_docs / "radius.md", text, markers)
     print(text)
     return 0
+
+
+def _in_space(half: str, seeds: Sequence[int], sizes: Sequence[int]) -> str:
+    from benchmarks import accuracy_space as space
+
+    outcomes = [
+        *space.measure_solids(space.HALVES[half], seeds, sizes),
+        *space.measure_surfaces(seeds[: max(1, len(seeds) // 3)], sizes[:2]),
+    ]
+    return space.report_in_space(outcomes, half)
 
 
 if __name__ == "__main__":

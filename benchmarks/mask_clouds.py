@@ -13,13 +13,13 @@ from alphamesh.persistence import persistence
 from alphamesh.sampling import add_noise, add_outliers, sample_pixels
 from benchmarks.masks import Region
 
-__all__ = ["KINDS", "MaskCloud", "sample_cloud", "spacing"]
+__all__ = ["KINDS", "NOISE", "MaskCloud", "sample_cloud", "spacing"]
 
 KINDS = ("uniform", "density", "noise", "outliers")
 # How much denser the points lie at one end of the shape than at the other.
 _DENSER = 4.0
 # Standard deviation of the noise, in mean spacings of the points.
-_NOISE = 0.25
+NOISE = 0.25
 _OUTLIERS = 0.02
 
 Numbers = NDArray[np.int64]
@@ -44,7 +44,7 @@ def sample_cloud(
     extra = outliers_of(kind, n)
     points = sample_pixels(mask, n - extra, seed=rng, replace=True)
     if kind == "noise":
-        return add_noise(points, _NOISE * spacing(mask, n), seed=rng)
+        return add_noise(points, NOISE * spacing(mask, n), seed=rng)
     return add_outliers(points, extra, seed=rng) if extra else points
 
 
@@ -61,19 +61,19 @@ def _unevenly(mask: Region, n: int, rng: np.random.Generator) -> NDArray[np.floa
 
 @dataclass(frozen=True)
 class MaskCloud:
-    """A cloud, and for each step of its filtration the components and holes.
+    """A cloud, and for each step of its filtration the Betti numbers.
 
     Components that consist of outliers alone are not counted.
 
     Attributes
     ----------
-    filtration : Filtration
+    filtration : Filtration or Filtration3D
     radii : (m,) float64
         Where the numbers change, ascending.
-    numbers : (m, 2) int64
+    numbers : (m, 2) or (m, 3) int64
     """
 
-    filtration: am.Filtration
+    filtration: am.Filtration | am.Filtration3D
     radii: NDArray[np.float64]
     numbers: Numbers
 
@@ -85,23 +85,24 @@ class MaskCloud:
         if outliers:
             merged = _merges_of_shapes(filtration, len(points) - outliers)
             left = len(merged) + 1 - np.searchsorted(merged, radii, side="right")
-            numbers = np.column_stack((left, numbers[:, 1]))
+            numbers = np.column_stack((left, numbers[:, 1:]))
         return cls(filtration, radii, numbers)
 
-    def succeeds(self, betti: tuple[int, int]) -> bool:
+    def succeeds(self, betti: tuple[int, ...]) -> bool:
         """Return whether some radius gives these numbers."""
         return bool((self.numbers == betti).all(axis=1).any())
 
-    def at(self, radius: float) -> tuple[int, int]:
-        """Return the components and holes at a radius."""
+    def at(self, radius: float) -> tuple[int, ...]:
+        """Return the Betti numbers at a radius."""
         step = int(np.searchsorted(self.radii, radius, side="right")) - 1
-        b0, b1 = self.numbers[step].tolist()
-        return b0, b1
+        return tuple(self.numbers[step].tolist())
 
 
-def _merges_of_shapes(filtration: am.Filtration, inliers: int) -> NDArray[np.float64]:
+def _merges_of_shapes(
+    filtration: am.Filtration | am.Filtration3D, inliers: int
+) -> NDArray[np.float64]:
     """Return the radii at which components meet that both hold points of the shape."""
-    joined, _ = filtration.pairs()
+    joined = filtration.pairs()[0]
     order = np.argsort(filtration.radii[1][joined[:, 1]], kind="stable")
     edges = joined[order, 1]
     parent = list(range(len(filtration.points)))

@@ -12,7 +12,6 @@ from benchmarks.results import FreshRun, Results, Timing
 __all__ = ["SHULL", "full_report", "milliseconds", "readme_table", "replace_between_markers"]
 
 SHULL = ("shull", "shull-parallel")
-_BEGIN, _END = "<!-- benchmark:begin -->", "<!-- benchmark:end -->"
 
 
 def milliseconds(seconds: float) -> str:
@@ -52,8 +51,8 @@ def full_report(results: Results) -> str:
     return _join(f"### {title}\n\n{text}" for title, text in sections.items() if text)
 
 
-def replace_between_markers(path: Path, text: str) -> None:
-    """Replace what stands between the benchmark markers of a file.
+def replace_between_markers(path: Path, text: str, name: str = "benchmark") -> None:
+    """Replace what stands between the markers of a name in a file.
 
     Raises
     ------
@@ -62,10 +61,11 @@ def replace_between_markers(path: Path, text: str) -> None:
     """
     if not path.exists():
         raise SystemExit(f"{path.name} does not exist")
-    before, begin, rest = path.read_text(encoding="utf-8").partition(_BEGIN)
-    _, end, after = rest.partition(_END)
+    first, last = f"<!-- {name}:begin -->", f"<!-- {name}:end -->"
+    before, begin, rest = path.read_text(encoding="utf-8").partition(first)
+    _, end, after = rest.partition(last)
     if not begin or not end:
-        raise SystemExit(f"{path.name} has no lines {_BEGIN} and {_END}")
+        raise SystemExit(f"{path.name} has no lines {first} and {last}")
     path.write_text(f"{before}{begin}\n{text}\n{end}{after}", encoding="utf-8")
 
 

@@ -298,14 +298,13 @@ def test_measure_curves_are_those_of_shapes(points):
 
 def test_rules_that_choose_a_radius(two):
     cx = am.AlphaComplex(two.points)
-    choice = cx.choose_radius()
-    assert choice.rule == "all-points"
+    choice = cx.choose_radius("all-points")
     row = int(np.argmax(cx.filtration.vertex_intervals.regular_from))
     assert f"row {row} at (" in choice.reason and "tetrahedron" in choice.reason
     at, below = cx.at(choice.radius), cx.at(math.nextafter(choice.radius, 0))
     assert len(np.unique(at.tetrahedra)) == len(cx.points)
     assert len(np.unique(below.tetrahedra)) < len(cx.points)
-    assert cx.at().radius == choice.radius
+    assert cx.at().radius == cx.choose_radius().radius
     for rule, options, most in (("one-region", {}, 1), ("regions", {"regions": 2}, 2)):
         radius = cx.choose_radius(rule, **options).radius
         assert len(cx.at(radius).regions) <= most and radius >= choice.radius

@@ -38,7 +38,7 @@ def test_meshes_of_solids(run, name):
         run("mesh", name, "-o", "solid.vtu", "-o", "solid.off", "--complex", "--json")
     )
     shape = am.AlphaComplex(am.read_points(name)).at()
-    assert told["dimension"] == 3 and told["rule"] == "all-points"
+    assert told["dimension"] == 3 and told["rule"] == "topology"
     assert told["radius"] == shape.radius
     assert (
         told["tetrahedra"]
@@ -67,6 +67,25 @@ def test_what_commands_tell_of_clouds_in_space(run):
     assert "2, all in one plane" in run("info", "flat.csv", "--columns", "0,1,2")
 
 
+def test_the_radius_in_space(run):
+    cx = am.AlphaComplex(am.read_points("scan.xyz"))
+    choice = cx.choose_radius()
+    assert choice.betti == (1, 0, 1)
+    told = json.loads(run("radius", "scan.xyz", "--json"))
+    assert told["betti"] == [1, 0, 1] and told["interval"] == list(choice.interval)
+    assert told["radius"] == choice.radius and told["reason"] == choice.reason
+    assert "1 component, 0 tunnels, 1 void\n" in run("radius", "scan.xyz")
+    told = json.loads(run("radius", "scan.xyz", "--voids", "0", "--solid", "--json"))
+    assert told["radius"] == cx.choose_radius(voids=0, surface=False).radius
+    told = json.loads(run("mesh", "scan.xyz", "-r", "topology:betti=1,0,1", "--json"))
+    assert told["radius"] == cx.choose_radius(betti=(1, 0, 1)).radius
+    assert "not components and holes" in CliRunner().invoke(
+        app, ["radius", "scan.xyz", "--betti", "1"]
+    ).output  # fmt: skip
+    flat = CliRunner().invoke(app, ["radius", "demo:eight", "-n", "300", "--voids", "1"])
+    assert flat.exit_code == 2 and "voids= and surface= are for points in space" in flat.output
+
+
 def test_commands_of_the_plane_leave_z_out(run):
     flat = json.loads(run("mesh", "scan.csv", "--columns", "x,y", "--json"))
     assert flat["dimension"] == 2 and flat["area"] > 0
@@ -77,7 +96,7 @@ def test_commands_of_the_plane_leave_z_out(run):
 
 
 def test_what_does_not_go_in_space_says_so(run):
-    done = CliRunner().invoke(app, ["mesh", "scan.xyz", "--radius", "topology", "--quiet"])
+    done = CliRunner().invoke(app, ["mesh", "scan.xyz", "--radius", "longest-interval"])
     assert "in the plane alone" in done.output + str(done.exception)
     done = CliRunner().invoke(app, ["info", "scan.csv", "--columns", "x,y,z,x"])
     assert done.exit_code == 2 and "not two or three columns" in done.output

@@ -38,13 +38,22 @@ _EXAMPLES = (
 @click.option(
     "--betti",
     type=BettiType(),
-    metavar="B0,B1",
-    help="Where the shape has exactly so many components and holes.",
+    metavar="B0,B1[,B2]",
+    help="Where the shape has exactly so many components and holes; in space, components, "
+    "tunnels and voids.",
 )
 @click.option("--components", type=click.IntRange(1), metavar="N", help="So many components.")
-@click.option("--holes", type=click.IntRange(0), metavar="N", help="So many holes.")
+@click.option(
+    "--holes", type=click.IntRange(0), metavar="N", help="So many holes; in space, tunnels."
+)
+@click.option("--voids", type=click.IntRange(0), metavar="N", help="So many voids in space.")
 @click.option(
     "--min-hole", type=float, metavar="R", help="Holes of at least this radius count."
+)
+@click.option(
+    "--surface/--solid",
+    default=None,
+    help="Points in space lie on a surface, or fill a solid.  [default: found out]",
 )
 @click.option("--regions", type=click.IntRange(1), metavar="N", help="At most N regions.")
 @click.option("--triangles", type=click.IntRange(1), metavar="N", help="At least N triangles.")
@@ -55,9 +64,9 @@ def command(source: str, rule: str, **options: Any) -> None:
 
     INPUT is a mask image, a file of points, "-" for a table on standard input,
     or demo:NAME for a built-in shape. The options --betti, --components,
-    --holes and --min-hole are those of the rule topology, --regions,
-    --triangles and --tetrahedra those of the rules regions, triangle-count
-    and, in space, tetrahedron-count.
+    --holes, --voids, --min-hole and --surface are those of the rule topology,
+    --regions, --triangles and --tetrahedra those of the rules regions,
+    triangle-count and, in space, tetrahedron-count.
     """
     wanted = {name: options.pop(name) for name in RULE_OPTIONS}
     wanted = {name: value for name, value in wanted.items() if value is not None}
@@ -107,4 +116,5 @@ def _range_text(low: float, high: float) -> str:
 
 
 def _shape_text(betti: tuple[int, ...]) -> str:
-    return f"{counted(betti[0], 'component')}, {counted(betti[1], 'hole')}"
+    names = ("component", "hole") if len(betti) == 2 else ("component", "tunnel", "void")
+    return ", ".join(map(counted, betti, names))

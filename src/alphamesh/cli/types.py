@@ -161,26 +161,33 @@ class RadiiType(ParamType):
 
 
 class BettiType(ParamType):
-    """Components and holes, ``b0,b1``."""
+    """Components and holes, ``b0,b1``; in space components, tunnels and voids."""
 
     name = "betti"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[int, int]:
-        """Return the two numbers."""
+    ) -> tuple[int, ...]:
+        """Return the two or three numbers."""
         if isinstance(value, tuple):
             return value
         parts = [part.strip() for part in str(value).split(",")]
-        if len(parts) != 2 or not all(part.isdigit() for part in parts):
-            self.fail(f"{value!r} is not components and holes, such as 1,2", param, ctx)
-        return int(parts[0]), int(parts[1])
+        if len(parts) not in {2, 3} or not all(part.isdigit() for part in parts):
+            self.fail(
+                f"{value!r} is not components and holes, such as 1,2, nor components, tunnels "
+                "and voids, such as 1,2,1",
+                param,
+                ctx,
+            )
+        return tuple(map(int, parts))
 
 
 RULE_OPTIONS: dict[str, ParamType] = {
     "betti": BettiType(),
     "components": click.IntRange(1),
     "holes": click.IntRange(0),
+    "voids": click.IntRange(0),
+    "surface": click.BOOL,
     "min_hole": click.FloatRange(0),
     "regions": click.IntRange(1),
     "triangles": click.IntRange(1),

@@ -16,12 +16,13 @@ class RadiusInterval(NamedTuple):
     low, high : float
         In the units of the points; `high` may be infinite.
     betti : tuple of int
-        Components and holes of the shape over that range.
+        Components and holes of the shape over that range; in space, components, tunnels
+        and voids.
     """
 
     low: float
     high: float
-    betti: tuple[int, int]
+    betti: tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,11 +38,12 @@ class RadiusChoice:
     reason : str
         A few sentences for a reader who has never heard of the rule.
     interval : tuple of float, or None
-        The range ``low <= radius < high`` over which the shape has the same numbers of
-        components and holes; `high` may be infinite. None if nobody looked, as for a
-        radius that was given.
+        The range ``low <= radius < high`` over which the shape has the same Betti
+        numbers; `high` may be infinite. None if nobody looked: for a radius that was given,
+        and in space for all rules but ``"topology"``, as persistence takes its time there.
     betti : tuple of int, or None
-        ``(b0, b1)``: the components and holes of the shape, without `strays`.
+        ``(b0, b1)``: the components and holes of the shape, without `strays`; in space
+        ``(b0, b1, b2)``, components, tunnels and voids. None if `interval` is.
     confidence : float or None
         How clear the answer is, from 0 to 1; see the rule ``"topology"``. None for rules
         that do not judge the shape.
@@ -58,7 +60,7 @@ class RadiusChoice:
     rule: str
     reason: str
     interval: tuple[float, float] | None = None
-    betti: tuple[int, int] | None = None
+    betti: tuple[int, ...] | None = None
     confidence: float | None = None
     runners_up: tuple[RadiusInterval, ...] = ()
     clear: bool = True

@@ -1,12 +1,13 @@
 """How densely the points lie: what the noise of sampling is measured by.
 
 In a random sample of the plane with ``k / pi`` points per unit of area, a disc of radius r
-holds ``k * r**2`` points on average. Call that the *content* of r. Gabriel edges are those
-whose smallest circle is empty, so the contents of their radii are spread like
+holds ``k * r**2`` points on average; in space, a ball holds ``k * r**3``, if there are
+``k * 3 / (4 pi)`` points per unit of volume. Call that the *content* of r. Gabriel edges are
+those whose smallest circle or ball is empty, so the contents of their radii are spread like
 ``exp(-content)``, whatever the density: their mean tells k. Few of these edges cross
 holes and gaps, and the long ones are left out.
 
-The filtration lists its edges along a curve that fills the plane, so a block of
+The filtration lists its edges along a curve that fills the plane or space, so a block of
 consecutive edges lies in one place. Blocks are joined in pairs, pairs of pairs and so on,
 up to the whole cloud; on the way back, each block departs from the pair that it belongs
 to only as far as the differences at that level exceed the error of sampling.
@@ -19,6 +20,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from alphamesh.filtration import Filtration
+
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray, IntArray
     from alphamesh.filtration import AnyFiltration
@@ -30,13 +33,13 @@ _BLOCK = 32
 # Contents beyond this, by the density of the whole, are holes and gaps.
 _LONGEST = 6.0
 # Variance of the logarithm of k, times the number of edges: it would be 1 if edges did
-# not depend on their neighbours (measured on uniform samples).
+# not depend on their neighbours (measured on uniform samples of the plane; 2.6 in space).
 _VARIANCE = 2.3
 # No block is taken to be sparser than the whole by more than this factor: one radius
 # cannot serve both.
 _SPARSEST = 8.0
 _MEDIAN = float(np.log(2.0))
-# Squares beyond this are cut off; keeps infinities out of the sums.
+# Powers beyond this are cut off; keeps infinities out of the sums.
 _MOST = 1e12
 
 
@@ -46,6 +49,8 @@ class Density:
 
     Attributes
     ----------
+    dimension : int
+        3 for points that fill space, 2 for those in a plane or on a surface.
     unit : float
         The median radius of the Gabriel edges.
     before : (E,) int32
@@ -55,6 +60,7 @@ class Density:
         length, and its variance.
     """
 
+    dimension: int
     unit: float
     before: IntArray
     logs: FloatArray
@@ -71,38 +77,53 @@ class Density:
     def _blocks(self, edges: IntArray) -> IntArray:
         return self.before.take(edges) // _BLOCK
 
-    def squared(self, radii: FloatArray) -> FloatArray:
-        """Return radii in units, squared; what is absurdly large is cut off."""
-        return _squared(radii, self.unit)
-
     def content(self, radii: FloatArray, edges: IntArray) -> FloatArray:
         """Return the contents of radii, each by the density about an edge."""
-        return np.asarray(self.rate(edges) * self.squared(radii))
+        return np.asarray(self.rate(edges) * _power(radii, self.unit, self.dimension))
+
+    def radius(self, power: float) -> float:
+        """Return the radius whose `dimension`-th power, in units, is `power`."""
+        return self.unit * float(power ** (1.0 / self.dimension))
 
     def all_rates(self) -> FloatArray:
         """Return the rates of all blocks: equal shares of the cloud."""
         return np.exp(self.logs)
 
 
-def local_density(filtration: AnyFiltration) -> Density:
-    """Return the density about each edge; the cloud must not be on one line."""
+def local_density(filtration: AnyFiltration, dimension: int) -> Density:
+    """Return the density about each edge; the cloud must not be on one line.
+
+    Parameters
+    ----------
+    filtration : Filtration or Filtration3D
+    dimension : int
+        See :class:`Density`.
+    """
     radii = filtration.radii[1]
-    gabriel = radii < filtration.edge_intervals.regular_from
+    gabriel = radii < _filled_from(filtration)
     if not gabriel.any():  # each smallest circle passes through a third point
         gabriel = np.ones(len(radii), dtype=bool)
     own = radii.compress(gabriel)
     unit = float(np.median(own)) or float(own.max()) or 1.0
-    contents = _MEDIAN * _squared(own, unit)
+    contents = _MEDIAN * _power(own, unit, dimension)
     short = contents < _LONGEST
     contents[~short] = 0.0
     before = np.maximum(np.cumsum(gabriel, dtype=np.int32) - 1, 0).astype(np.int32)
     logs, variances = _shrunk(_block_sums(contents), _block_sums(short))
-    return Density(unit, before, logs + np.log(_MEDIAN), variances)
+    return Density(dimension, unit, before, logs + np.log(_MEDIAN), variances)
 
 
-def _squared(radii: FloatArray, unit: float) -> FloatArray:
+def _filled_from(filtration: AnyFiltration) -> FloatArray:
+    """Return the radius at which each edge gets its first triangle."""
+    if isinstance(filtration, Filtration):
+        return filtration.edge_intervals.regular_from
+    return filtration.filled_from
+
+
+def _power(radii: FloatArray, unit: float, dimension: int) -> FloatArray:
+    """Return a power of radii in units; what is absurdly large is cut off."""
     with np.errstate(over="ignore", under="ignore"):
-        return np.minimum((radii / unit) ** 2, _MOST)
+        return np.minimum((radii / unit) ** dimension, _MOST)
 
 
 def _block_sums(values: FloatArray | BoolArray) -> FloatArray:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from alphamesh.radius._places import ends_of
+from alphamesh.radius._places import corners_of
 
 if TYPE_CHECKING:
     from alphamesh._arrays import CountArray, IntArray
@@ -61,7 +61,7 @@ def weighed_pieces(
         Pieces are followed from this radius on.
     """
     edges, deaths = pairs.pairs[0][:, 1], pairs.deaths[0]
-    ends = ends_of(pairs.filtration, edges)
+    ends = corners_of(pairs.filtration, 1, edges)
     labels = _labels(ends.compress(deaths <= least, axis=0), outliers.total)
     late = np.flatnonzero(deaths > least)
     late = late[np.argsort(deaths.take(late), kind="stable")]

@@ -10,12 +10,17 @@ if TYPE_CHECKING:
     from alphamesh._arrays import IntArray
     from alphamesh.filtration import AnyFiltration
 
-__all__ = ["ends_of"]
+__all__ = ["corners_of"]
 
 
-def ends_of(filtration: AnyFiltration, edges: IntArray) -> IntArray:
-    """Return the ends of some edges as positions in ``filtration.simplices[0]``, (k, 2)."""
-    rows = filtration.simplices[1].take(edges, axis=0)
+def corners_of(filtration: AnyFiltration, dimension: int, simplices: IntArray) -> IntArray:
+    """Return the corners of some simplices as positions in ``filtration.simplices[0]``.
+
+    Returns
+    -------
+    (k, dimension + 1) int32
+    """
+    rows = filtration.simplices[dimension].take(simplices, axis=0)
     vertices = filtration.simplices[0][:, 0]
     if len(vertices) == len(filtration.points):
         return rows

@@ -19,7 +19,6 @@ from alphamesh.radius._choice import RadiusChoice
 __all__ = ["DEFAULT_RULE", "choose_radius", "radius_rule", "rule_names"]
 
 DEFAULT_RULE = "topology"
-_DEFAULT_IN_SPACE = "all-points"
 
 Rule: TypeAlias = Callable[..., RadiusChoice]
 
@@ -48,11 +47,7 @@ def radius_rule(name: str, columns: tuple[int, ...] = (2, 3)) -> Callable[[Rule]
 def rule_names(columns: int = 2) -> tuple[str, ...]:
     """Return the names of all rules for points of so many columns, the default first."""
     names = (name for name in _RULES if columns in _COLUMNS[name])
-    return tuple(sorted(names, key=lambda name: (name != _default(columns), name)))
-
-
-def _default(columns: int) -> str:
-    return DEFAULT_RULE if columns == 2 else _DEFAULT_IN_SPACE
+    return tuple(sorted(names, key=lambda name: (name != DEFAULT_RULE, name)))
 
 
 def choose_radius(
@@ -65,12 +60,14 @@ def choose_radius(
     filtration : Filtration or Filtration3D
         From :func:`alphamesh.filtration.filtration`, or ``AlphaComplex.filtration``.
     rule : str, optional
-        By default ``"topology"`` in the plane and ``"all-points"`` in space. Rules speak
-        of triangles; in space these are tetrahedra.
+        By default ``"topology"``. Rules speak of triangles; in space these are tetrahedra.
 
         ``"topology"``: where the noise of sampling has died out while the holes and gaps
-        of the shape stand. Options, for those who know: ``betti=(b0, b1)``,
-        ``components=b0``, ``holes=b1`` and ``min_hole=radius``. In the plane alone.
+        of the shape stand. It needs the persistence of the cloud, which is kept. Options,
+        for those who know: ``betti=(b0, b1)``, ``components=b0``, ``holes=b1`` and
+        ``min_hole=radius``; in space ``betti=(b0, b1, b2)``, where holes are tunnels,
+        ``voids=b2``, and ``surface=True`` or ``False`` if the points are known to lie on
+        a surface, or not.
 
         ``"all-points"``: the smallest radius at which every point is a corner of some
         triangle. Known from ``criticalAlpha(shp, "all-points")`` in MATLAB and
@@ -116,7 +113,7 @@ def choose_radius(
             "make one with alphamesh.filtration(points), or use AlphaComplex.choose_radius()"
         )
     columns = filtration.points.shape[1]
-    rule = _default(columns) if rule is None else rule
+    rule = DEFAULT_RULE if rule is None else rule
     chosen = _RULES.get(rule)
     if chosen is None:
         raise _unknown_rule(rule, columns)
@@ -132,7 +129,10 @@ def choose_radius(
 
 
 def _completed(filtration: AnyFiltration, choice: RadiusChoice) -> RadiusChoice:
-    """Return `choice` with the Betti numbers at its radius and where they hold."""
+    """Return `choice` with the Betti numbers at its radius and where they hold.
+
+    Not in space: these numbers would take as long as all that a rule needs otherwise.
+    """
     if isinstance(filtration, Filtration3D):
         return choice
     if choice.interval is not None and choice.betti is not None:

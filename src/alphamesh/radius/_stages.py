@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from alphamesh.radius._density import local_density
-from alphamesh.radius._loops import Loops, weighed_loops
-from alphamesh.radius._noise import Gaps, noise_content, noise_square
+from alphamesh.radius._loops import Loops, joined, weighed_loops
+from alphamesh.radius._noise import Gaps, noise_power
 from alphamesh.radius._outliers import find_outliers
 from alphamesh.radius._pieces import Pieces, weighed_pieces
+from alphamesh.radius._sheets import is_sheet
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, CountArray, FloatArray
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Stages", "stages_of"]
 
-# No stage below this part of the radius at which chance voids die is looked at.
-_EARLIEST = 0.45
+# No stage below this part of the content at which chance voids die is looked at.
+_EARLIEST = 0.45**2
 # What speaks against a radius at which outliers make a loop. More such loops speak less
 # and less against it: with many outliers, some are made at any radius.
 _BY_OUTLIERS = 3.0
@@ -36,8 +37,8 @@ class Stages:
     Attributes
     ----------
     low, high : (m,) float64
-    betti : (m, 2) int64
-        Components, without strays, and holes.
+    betti : (m, 2) or (m, 3) int64
+        Components, without strays, and holes; in space, tunnels and voids.
     weight : (m,) float64
         Sum of the weights of the pieces and loops that are there.
     allowed : (m,) bool
@@ -45,7 +46,9 @@ class Stages:
         can be told from the next.
     loops : Loops
     noise : float
-        The radius of the largest empty disc that chance leaves.
+        The radius of the largest empty disc or ball that chance leaves.
+    sheet : bool
+        Whether the points are taken to lie on a surface in space.
     """
 
     low: FloatArray
@@ -55,33 +58,41 @@ class Stages:
     allowed: BoolArray
     loops: Loops
     noise: float
+    sheet: bool
 
 
-def stages_of(pairs: Persistence, min_hole: float) -> Stages:
+def stages_of(pairs: Persistence, min_hole: float, surface: bool | None = None) -> Stages:
     """Weigh every range of radii of a cloud of at least two places.
 
     Parameters
     ----------
     pairs : Persistence
     min_hole : float
-        Loops that die at a smaller radius are no holes.
+        Loops and voids that die at a smaller radius are no holes.
+    surface : bool, optional
+        Whether points in space lie on a surface; by default this is found out.
     """
     if pairs.filtration.dimension == 1:
         return _stages_on_a_line(pairs)
-    density = local_density(pairs.filtration)
+    solid = pairs.filtration.dimension == 3
+    sheet = solid and (is_sheet(pairs) if surface is None else surface)
+    power = 3 if solid and not sheet else 2
+    density = local_density(pairs.filtration, power)
     n = len(pairs.filtration.simplices[0])
-    typical = np.sqrt(noise_content(n) / np.median(density.all_rates()))
-    least = _EARLIEST * density.unit * float(typical)
-    noise = density.unit * float(np.sqrt(noise_square(density.all_rates(), n)))
+    typical = noise_power(power, np.ones(1), n) / float(np.median(density.all_rates()))
+    least = density.radius(_EARLIEST * typical)
+    noise = density.radius(noise_power(power, density.all_rates(), n))
     tree = pairs.pairs[0][:, 1]
-    gaps = Gaps.of(density.content(pairs.deaths[0], tree))
+    gaps = Gaps.of(density.content(pairs.deaths[0], tree), power)
     outliers = find_outliers(pairs.filtration, density, gaps, least)
     loops = weighed_loops(pairs, density, outliers, least)
+    if solid:
+        loops = joined(loops, weighed_loops(pairs, density, outliers, least, 2))
     if min_hole > 0.0:
         small = loops.deaths < min_hole
         loops = loops._replace(weights=np.where(small, -50.0, loops.weights))
     pieces = weighed_pieces(pairs, density, outliers, least)
-    return _swept(pairs, loops, pieces, least, noise)
+    return _swept(pairs, loops, pieces, least, noise=noise, sheet=sheet)
 
 
 def _stages_on_a_line(pairs: Persistence) -> Stages:
@@ -90,26 +101,37 @@ def _stages_on_a_line(pairs: Persistence) -> Stages:
     with np.errstate(over="ignore"):
         lengths = np.minimum(gaps / (float(np.median(gaps)) or 1.0), 1e6)
     contents = lengths**2
-    weight = Gaps.of(contents).weight(contents, len(gaps) + 1, len(gaps) + 1)
+    weight = Gaps.of(contents, 2).weight(contents, len(gaps) + 1, len(gaps) + 1)
     pieces = Pieces(
         [0.0] * len(gaps) + gaps.tolist() + [0.0],
         [*weight.tolist(), *(-weight).tolist(), 0.0],
         [1] * len(gaps) + [-1] * len(gaps) + [1],
     )
     none = np.empty(0)
-    return _swept(pairs, Loops(none, none, none, none, none.astype(bool)), pieces, 0.0, 0.0)
+    loops = Loops(none.astype(int), none, none, none, none, none.astype(bool))
+    return _swept(pairs, loops, pieces, 0.0, noise=0.0, sheet=False)
 
 
-def _swept(
-    pairs: Persistence, loops: Loops, pieces: Pieces, least: float, noise: float
+def _swept(  # noqa: PLR0913 (what there is at each radius, and what to remember)
+    pairs: Persistence,
+    loops: Loops,
+    pieces: Pieces,
+    least: float,
+    *,
+    noise: float,
+    sheet: bool,
 ) -> Stages:
     """Add up the weights of what is there, radius by radius."""
     count = len(loops.births)
     radii = np.concatenate((loops.births, loops.deaths, pieces.radii, _before(pairs, least)))
     extra = len(radii) - 2 * count - len(pieces.radii)
-    change = np.zeros((len(radii), 3), dtype=np.int64)
-    change[:count, 1], change[count : 2 * count, 1] = 1, -1
-    change[:count, 2], change[count : 2 * count, 2] = loops.by_outliers, -1 * loops.by_outliers
+    columns = pairs.filtration.points.shape[1]
+    change = np.zeros((len(radii), columns + 1), dtype=np.int64)
+    for k in range(1, columns):
+        comes = loops.dimensions == k
+        change[:count, k], change[count : 2 * count, k] = comes, -1 * comes
+    by_outliers = loops.by_outliers
+    change[:count, -1], change[count : 2 * count, -1] = by_outliers, -1 * by_outliers
     change[2 * count : len(radii) - extra, 0] = pieces.components
     weight = np.concatenate((loops.weights, -loops.weights, pieces.weights, np.zeros(extra)))
     finite = np.isfinite(radii)  # what stays for ever never leaves
@@ -121,19 +143,21 @@ def _swept(
     high = np.append(low[1:], np.inf)
     numbers = np.cumsum(change.take(order, axis=0), axis=0).compress(last, axis=0)
     total = np.cumsum(weight.take(order)).compress(last)
-    total -= _BY_OUTLIERS * np.log2(1.0 + numbers[:, 2])
+    total -= _BY_OUTLIERS * np.log2(1.0 + numbers[:, -1])
     return Stages(
         low,
         high,
-        numbers[:, :2],
+        numbers[:, :-1],
         np.round(total, 6),  # equal evidence shall give equal sums
         (high > least) & (high - low > _NARROWEST * low),
         loops,
         noise,
+        sheet,
     )
 
 
 def _before(pairs: Persistence, least: float) -> FloatArray:
     """Return the last changes up to `least` of what is not followed one by one."""
-    radii = [values[values <= least] for values in (*pairs.deaths[:2], pairs.births[1])]
+    lives = (*pairs.deaths, *pairs.births[1:])
+    radii = [values[values <= least] for values in lives]
     return np.array([0.0, *(values.max() for values in radii if len(values))])

@@ -20,7 +20,7 @@ from alphamesh.radius._words import counted
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, CountArray, FloatArray
-    from alphamesh.filtration import Filtration
+    from alphamesh.filtration import AnyFiltration
     from alphamesh.persistence import Persistence
 
 _RULE = "topology"
@@ -35,17 +35,24 @@ _FEW = 10
 _RUNNERS_UP = 3
 _UNLIKELY = 0.01
 
-Wanted = tuple[int | None, int | None]
+# What the Betti numbers count, by the number of columns of the points.
+_NAMES = {2: ("components", "holes"), 3: ("components", "tunnels", "voids")}
+_NUMBERS = {2: "two", 3: "three"}
+_OPTIONS = ("components", "holes", "voids")
+
+Wanted = tuple[int | None, ...]
 
 
-@radius_rule(_RULE, columns=(2,))
-def _topology(
-    filtration: Filtration,
+@radius_rule(_RULE)
+def _topology(  # noqa: PLR0913 (all of them are options)
+    filtration: AnyFiltration,
     *,
-    betti: tuple[int, int] | None = None,
+    betti: tuple[int, ...] | None = None,
     components: int | None = None,
     holes: int | None = None,
+    voids: int | None = None,
     min_hole: float = 0.0,
+    surface: bool | None = None,
 ) -> RadiusChoice:
     """Choose the range of radii that explains the persistence pairs best.
 
@@ -56,41 +63,51 @@ def _topology(
     The confidence is the probability of the chosen numbers of components and holes, each
     pair of numbers standing with the likelihood ``exp(sum)`` of its best radius.
     """
-    wanted = _wanted(betti, components, holes)
+    columns = filtration.points.shape[1]
+    if columns == 2 and not (voids is None and surface is None):
+        raise ParameterError("voids= and surface= are for points in space; use holes= here")
+    wanted = _wanted(columns, betti, (components, holes, voids)[:columns])
     smallest = _checked_size(min_hole)
+    if surface not in (None, True, False):
+        raise ParameterError(f"surface must be True, False or None; got {surface!r}")
     if filtration.dimension == 0:
-        if not _fits(np.array([[1, 0]]), wanted).all():
+        one = (1, 0, 0)[:columns]
+        if not _fits(np.array([one]), wanted).all():
             raise _nowhere(wanted)
         reason = "All points are at one place: one component at any radius."
         return RadiusChoice(
-            0.0, _RULE, reason, interval=(0.0, math.inf), betti=(1, 0), confidence=1.0
+            0.0, _RULE, reason, interval=(0.0, math.inf), betti=one, confidence=1.0
         )
     pairs = persistence(filtration)
-    stages = stages_of(pairs, smallest)
+    stages = stages_of(pairs, smallest, surface)
     fits = _fits(stages.betti, wanted)
     if not (stages.allowed & fits).any():
         return _anywhere(pairs, wanted)
     choice = _best(pairs, stages, stages.allowed & fits)
-    if wanted == (None, None):
+    if not any(number is not None for number in wanted):
         return choice
     return replace(choice, reason=f"{_wish(wanted).capitalize()}, as asked. {choice.reason}")
 
 
-def _wanted(betti: Any, components: int | None, holes: int | None) -> Wanted:
+def _wanted(columns: int, betti: Any, single: Wanted) -> Wanted:
+    """Return the Betti numbers asked for, None where any will do."""
     if betti is not None:
-        if components is not None or holes is not None:
-            raise ParameterError(
-                "give either betti=(b0, b1), or components= and holes=, not both"
-            )
+        if any(number is not None for number in single):
+            options = " and ".join(f"{name}=" for name in _OPTIONS[:columns])
+            names = ", ".join(f"b{k}" for k in range(columns))
+            raise ParameterError(f"give either betti=({names}), or {options}, not both")
         try:
-            components, holes = betti
-        except (TypeError, ValueError):
+            single = tuple(betti)
+        except TypeError:
+            single = ()
+        if len(single) != columns or None in single:
             raise ParameterError(
-                f"betti must be two numbers (components, holes); got {betti!r}"
-            ) from None
-    return (
-        None if components is None else whole_number("components", components, 1),
-        None if holes is None else whole_number("holes", holes, 0),
+                f"betti must be {_NUMBERS[columns]} numbers ({', '.join(_NAMES[columns])}); "
+                f"got {betti!r}"
+            )
+    return tuple(
+        None if number is None else whole_number(name, number, least)
+        for name, number, least in zip(_OPTIONS, single, (1, 0, 0), strict=False)
     )
 
 
@@ -125,19 +142,19 @@ def _best(pairs: Persistence, stages: Stages, eligible: BoolArray) -> RadiusChoi
     accidents = int(np.count_nonzero(there & accidental))
     points = len(pairs.filtration.simplices[0])
     clear = confidence >= _CLEAR and accidents == 0 and points >= _FEW
-    after = np.flatnonzero((stages.low >= high) & stages.allowed)
     findings = Findings(
         points,
-        pairs.filtration.dimension == 1,
+        pairs.filtration.dimension,
         interval,
         stages.noise,
         float(stages.loops.contents.compress(there).min(initial=np.inf)),
-        _numbers(stages.betti[after[0]] - stages.betti[stage]) if len(after) else (0, 0),
+        _next_change(stages, stage, high),
         strays,
         accidents,
         confidence,
         clear,
         others[0] if others else None,
+        stages.sheet,
     )
     return RadiusChoice(
         radius,
@@ -150,6 +167,18 @@ def _best(pairs: Persistence, stages: Stages, eligible: BoolArray) -> RadiusChoi
         clear=clear,
         strays=strays,
     )
+
+
+def _next_change(stages: Stages, stage: int, high: float) -> tuple[int, ...]:
+    """Return how the numbers change from a stage to what follows its range."""
+    change = stages.betti - stages.betti[stage]
+    after = stages.low >= high
+    # A narrow range is passed over, unless all is as before then.
+    for following in (after & stages.allowed, after):
+        first = int(np.argmax(following))
+        if following[first] and change[first].any():
+            return _numbers(change[first])
+    return _numbers(change[stage])
 
 
 def _first_wide(stages: Stages, weight: FloatArray) -> int:
@@ -205,9 +234,8 @@ def _widened(stages: Stages, stage: int) -> tuple[float, float]:
     return float(stages.low[first]), high
 
 
-def _numbers(betti: CountArray) -> tuple[int, int]:
-    b0, b1 = betti.tolist()
-    return b0, b1
+def _numbers(betti: CountArray) -> tuple[int, ...]:
+    return tuple(betti.tolist())
 
 
 def _anywhere(pairs: Persistence, wanted: Wanted) -> RadiusChoice:
@@ -241,5 +269,6 @@ def _nowhere(wanted: Wanted) -> ParameterError:
 
 
 def _wish(wanted: Wanted) -> str:
-    named = zip(wanted, ("component", "hole"), strict=True)
-    return " and ".join(counted(number, what) for number, what in named if number is not None)
+    named = zip(wanted, _NAMES[len(wanted)], strict=True)
+    texts = [counted(number, what[:-1]) for number, what in named if number is not None]
+    return " and ".join((", ".join(texts[:-1]), texts[-1]) if texts[1:] else texts)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["CELLS", "apart", "components_and_holes", "counted", "flat_text"]
+__all__ = ["CELLS", "apart", "components_and_holes", "counted", "flat_text", "shape_words"]
 
 #: What the largest simplices of a cloud of each dimension are called: one, several.
 CELLS = {
@@ -38,3 +38,12 @@ def counted(number: int, singular: str, plural: str | None = None) -> str:
 def components_and_holes(b0: int, b1: int) -> str:
     """Return ``"1 component and 2 holes"``."""
     return f"{counted(b0, 'component')} and {counted(b1, 'hole')}"
+
+
+def shape_words(betti: tuple[int, ...]) -> str:
+    """Return components and holes; in space, ``"1 component, 2 tunnels and 1 void"``."""
+    if len(betti) == 2:
+        return components_and_holes(*betti)
+    components, tunnels, voids = betti
+    first = f"{counted(components, 'component')}, {counted(tunnels, 'tunnel')}"
+    return f"{first} and {counted(voids, 'void')}"
