@@ -144,11 +144,8 @@ def test_json_tells_failures_too(table):
     assert len(out["failures"]) == 1
 
 
-@pytest.mark.parametrize(
-    "command", ["regions", "polygons", "query", "hull", "voronoi", "delaunay"]
-)
+@pytest.mark.parametrize("command", ["polygons", "hull", "voronoi", "delaunay"])
 def test_points_in_space_where_there_is_only_the_plane(command):
     np.save("p.npy", np.random.default_rng(0).random((9, 3)))
-    places = ["p.npy"] if command == "query" else []
-    said = refused(1, command, "p.npy", *places, "--columns", "0,1,2")
+    said = refused(1, command, "p.npy", "--columns", "0,1,2")
     assert any(word in said for word in ("the plane alone", "in the plane"))

@@ -147,7 +147,7 @@ def _made(source: str, options: dict[str, Any], steps: Steps) -> _Made:
             raise click.UsageError("--keep-columns is for points in the plane; leave it out")
         choice, solid = solid_at(job, options, steps)
         return _Made(job, choice, solid.shape, solid)
-    refuse_solid_options(options, source)
+    refuse_solid_options(options, f"{source!r}, points in the plane")
     choice = job.choose(options["radius"], steps)
     return _Made(job, choice, job.complex.at(choice.radius))
 
@@ -157,7 +157,8 @@ def _saver(made: _Made, options: dict[str, Any]) -> Callable[[Path], None]:
     if made.solid is not None:
         return made.solid.save
     if not options["keep_columns"]:
-        return partial(made.shape.save)
+        save: Callable[[Path], None] = made.shape.save
+        return save
     return partial(made.shape.save, point_data=made.job.given.table)
 
 

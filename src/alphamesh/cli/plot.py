@@ -116,7 +116,7 @@ def command(
         if in_space and view in _OF_SOLIDS:
             choice, solid = solid_at(job, {**options, "radius": radius}, steps)
         else:
-            refuse_solid_options(options, f"the view {view} of {source}")
+            refuse_solid_options(options, f"the view {view} of these points")
             if VIEWS[view]:
                 choice = job.choose(radius, steps)
         if choice is not None:

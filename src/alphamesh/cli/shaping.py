@@ -77,7 +77,7 @@ def any_shape_at(
 ) -> tuple[RadiusChoice, PlanarShape | SolidShape]:
     """Return the radius that `options` ask for, and the shape there, in plane or space."""
     if job.complex.points.shape[1] == 2:
-        refuse_solid_options(options, "INPUT", but=("largest",))
+        refuse_solid_options(options, "points in the plane", but=("largest",))
         return shape_at(job, options, steps)
     for name, flag in (("fill_holes", "--fill-holes"), ("min_area", "--min-area")):
         if options[name] is not None:

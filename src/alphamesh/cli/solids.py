@@ -30,6 +30,7 @@ __all__ = [
     "solid_at",
     "solid_options",
     "surface_option",
+    "void_options",
 ]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -89,12 +90,14 @@ def solid_options(command: Function) -> Function:
 
 
 def refuse_solid_options(
-    options: dict[str, Any], source: str, *, but: tuple[str, ...] = ()
+    options: dict[str, Any], what: str, *, but: tuple[str, ...] = ()
 ) -> None:
-    """Raise a usage error if `options` are given that are for points in space alone."""
+    """Raise a usage error if `options` are given that are for solids, which `what` is not."""
     for name, flag in _FLAGS.items():
         if name not in but and options.get(name) is not None:
-            raise click.UsageError(f"{flag} has no meaning for {source!r}, points in the plane")
+            raise click.UsageError(
+                f"{flag} is for solids in space, and has no meaning for {what}"
+            )
 
 
 def void_options(command: Function) -> Function:
@@ -149,8 +152,12 @@ class Solid:
     def _left_out(self) -> list[str]:
         """Say which simplices are not on the surface."""
         counts = self.shape.counts
-        nouns = ("singular_triangles", "isolated_edges", "isolated_vertices")
-        found = [f"{counts[name]:,} {name.replace('_', ' ')}" for name in nouns if counts[name]]
+        nouns = {
+            "singular_triangles": ("singular triangle", "singular triangles"),
+            "isolated_edges": ("isolated edge", "isolated edges"),
+            "isolated_vertices": ("isolated vertex", "isolated vertices"),
+        }
+        found = [counted(counts[name], *noun) for name, noun in nouns.items() if counts[name]]
         if not found:
             return []
         return [
@@ -286,6 +293,7 @@ def _unfaithful(surface: Surface, path: Path) -> list[str]:
     if merged == 0:
         return []
     return [
-        f"{counted(merged, 'edge')} of the surface lie on others, and readers of STL see them "
-        "as one with four triangles: not watertight to them; PLY, OBJ and OFF keep them apart"
+        "to readers of STL, which take equal vertices for one, "
+        f"{counted(merged, 'edge')} of the surface would have four triangles or more: not "
+        "watertight to them; PLY, OBJ and OFF keep them apart"
     ]
