@@ -162,6 +162,13 @@ def test_options_of_space_are_refused_in_the_plane(options):
         am.AlphaComplex([[0, 0], [1, 0], [0, 1]]).choose_radius(**options)
 
 
+def test_clouds_of_very_different_scales():
+    rng = np.random.default_rng(3)
+    points = np.concatenate((rng.random((20, 3)) * 2.0**-140, rng.random((200, 3))))
+    choice = am.AlphaComplex(points).choose_radius()
+    assert math.isfinite(choice.radius) and choice.betti[0] == 1
+
+
 def test_outliers_in_space_are_strays():
     points = am.sample_solid("ball", 4000, seed=6)
     far = np.array([[-5.0, 0.0, 0.0], [0.0, 6.0, 0.0], [4.0, 4.0, 4.0]])

@@ -83,6 +83,7 @@ def weighed_loops(
     if cycles == 1:  # the edge that closes a loop may cross a gap of the shape
         bridge = outliers.gaps.weight(closed_at, places, n)
     else:  # so may the triangle that closes a void, by filling a loop
+        closed_at = np.maximum(closed_at, _MOMENT)  # has a logarithm
         expected = chance(density.dimension, 1, closed_at, places)
         bridge = -np.log(log_range(n) * closed_at) - expected
         # A wide void falls apart just before it is filled; its parts live for a moment.
