@@ -90,7 +90,7 @@ def _cells(options: argparse.Namespace) -> list[Cell]:
     sizes = options.sizes or (_TINY_SIZES if options.tiny else _SIZES)
     peers = set(JOBS) - set(OURS) if options.peers is None else set(options.peers)
     jobs = tuple(
-        job for job in options.jobs or JOBS if job in OURS or {job, JOBS[job].library} & peers
+        job for job in options.jobs or JOBS if job in OURS or {job, JOBS[job].package} & peers
     )
     return [Cell(cloud, size, jobs) for size in sizes for cloud in options.clouds or CLOUDS]
 
@@ -154,7 +154,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add = parser.add_argument
-    peers = sorted({*JOBS, *(job.library for job in JOBS.values())} - set(OURS))
+    peers = sorted({*JOBS, *(job.package for job in JOBS.values())} - set(OURS))
     add("--jobs", type=_names(*JOBS), help=f"some of {', '.join(JOBS)}")
     add("--peers", type=_names(*peers), help="only these peers beside ours, or none")
     add("--clouds", type=_names(*CLOUDS), help=f"some of {', '.join(CLOUDS)}")

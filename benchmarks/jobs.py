@@ -36,7 +36,7 @@ class Job:
     ----------
     name : str
         How `--jobs` calls it.
-    library : str
+    package : str
         The distribution whose version is reported.
     call : str
         The Python expression that is measured, for the reader.
@@ -48,7 +48,7 @@ class Job:
     """
 
     name: str
-    library: str
+    package: str
     call: str
     makes: str
     load: Callable[[], Run]
@@ -163,7 +163,7 @@ def available(names: Iterable[str]) -> tuple[dict[str, Run], dict[str, str]]:
         try:
             runs[name] = JOBS[name].load()
         except ImportError as error:
-            left_out[name] = f"{JOBS[name].library} cannot be imported ({error})"
+            left_out[name] = f"{JOBS[name].package} cannot be imported ({error})"
     return runs, left_out
 
 

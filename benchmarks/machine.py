@@ -37,7 +37,7 @@ def describe(jobs: Iterable[str]) -> dict[str, Any]:
 
     Names neither the host, nor its user, nor any path.
     """
-    libraries = dict.fromkeys(JOBS[name].library for name in jobs)
+    libraries = dict.fromkeys(JOBS[name].package for name in jobs)
     return {
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
         "cpu": _cpu_model(),

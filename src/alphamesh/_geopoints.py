@@ -103,7 +103,7 @@ def point_table(points: Any, dimension: int = 2) -> FloatArray:
     MissingLibraryError
         If shapely is not installed.
     """
-    shapely = _shapely.library(_PURPOSE)
+    shapely = _shapely.shapely_for(_PURPOSE)
     geometries = _geometries(shapely, points)
     _refuse_missing(shapely.is_missing(geometries) | shapely.is_empty(geometries))
     _refuse_others(shapely, geometries)

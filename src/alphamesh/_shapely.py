@@ -11,12 +11,12 @@ from alphamesh.errors import MissingLibraryError
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, CountArray, FloatArray
 
-__all__ = ["Geometries", "clipped", "library", "polygons", "scaled", "with_holes"]
+__all__ = ["Geometries", "clipped", "polygons", "scaled", "shapely_for", "with_holes"]
 
 Geometries: TypeAlias = "np.ndarray[Any, np.dtype[np.object_]]"
 
 
-def library(purpose: str) -> Any:
+def shapely_for(purpose: str) -> Any:
     """Return the module shapely.
 
     Raises
@@ -42,7 +42,7 @@ def polygons(vertices: FloatArray, offset: CountArray, purpose: str) -> Geometri
     purpose : str
         What shapely is needed for, should it be missing.
     """
-    shapely = library(purpose)
+    shapely = shapely_for(purpose)
     counts = np.diff(offset)
     made = np.full(len(counts), shapely.Polygon(), dtype=np.object_)
     used = np.flatnonzero(counts)
@@ -64,7 +64,7 @@ def with_holes(
     purpose: str,
 ) -> Geometries:
     """Return groups of rings as shapely geometries: the inverse of :func:`clipped`."""
-    shapely = library(purpose)
+    shapely = shapely_for(purpose)
     made = np.full(len(offset) - 1, shapely.Polygon(), dtype=np.object_)
     if len(hole) == 0:
         return made
@@ -84,7 +84,7 @@ def with_holes(
 
 def scaled(region: Any, exponent: int) -> Any:
     """Return a geometry times a power of two."""
-    shapely = library("Cutting cells by a polygon")
+    shapely = shapely_for("Cutting cells by a polygon")
     if exponent == 0:
         return region
     return shapely.transform(region, lambda vertices: np.ldexp(vertices, exponent))

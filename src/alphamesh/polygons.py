@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from alphamesh._shapely import library
+from alphamesh._shapely import shapely_for
 from alphamesh.corners import Corners, corners_of, in_triangles
 from alphamesh.errors import ParameterError
 
@@ -39,7 +39,7 @@ def polygons(rings: Rings) -> Geometries:
 
 
 def _made(coordinates: FloatArray, offsets: CountArray, ring_offsets: CountArray) -> Geometries:
-    shapely = library(_PURPOSE)
+    shapely = shapely_for(_PURPOSE)
     if len(ring_offsets) == 1:
         return np.empty(0, dtype=np.object_)
     made: Geometries = shapely.from_ragged_array(
@@ -50,7 +50,7 @@ def _made(coordinates: FloatArray, offsets: CountArray, ring_offsets: CountArray
 
 def joined(parts: Geometries) -> Any:
     """Return polygons as one shapely.MultiPolygon."""
-    return library(_PURPOSE).multipolygons(parts)
+    return shapely_for(_PURPOSE).multipolygons(parts)
 
 
 def collect(parts: Geometries, points: FloatArray, edges: IntArray, vertices: IntArray) -> Any:
@@ -65,7 +65,7 @@ def collect(parts: Geometries, points: FloatArray, edges: IntArray, vertices: In
     vertices : (m,) int32
         Each becomes a Point.
     """
-    shapely = library(_PURPOSE)
+    shapely = shapely_for(_PURPOSE)
     lines = shapely.linestrings(points.take(edges, axis=0))
     alone = shapely.points(points.take(vertices, axis=0))
     return shapely.geometrycollections(np.concatenate((parts, lines, alone)))
@@ -106,7 +106,7 @@ def simplified(parts: Geometries, tolerance: float) -> Geometries:
             "simplify must be 0 or more, in the units of the points: how far the outline may "
             f"move; got {tolerance!r}"
         )
-    shapely = library(_PURPOSE)
+    shapely = shapely_for(_PURPOSE)
     whole = shapely.multipolygons(parts)
     while tolerance > 0:
         made = shapely.simplify(whole, tolerance, preserve_topology=True)
@@ -119,7 +119,7 @@ def simplified(parts: Geometries, tolerance: float) -> Geometries:
 
 
 def _hole_counts(parts: Geometries) -> CountArray:
-    counts: CountArray = library(_PURPOSE).get_num_interior_rings(parts)
+    counts: CountArray = shapely_for(_PURPOSE).get_num_interior_rings(parts)
     return counts
 
 
@@ -158,7 +158,7 @@ def smoothed(parts: Geometries, times: int) -> Geometries:
         raise ParameterError(
             f"smooth must be a whole number of 0 or more, how often to cut; got {times!r}"
         )
-    shapely = library(_PURPOSE)
+    shapely = shapely_for(_PURPOSE)
     if times == 0 or len(parts) == 0:
         return parts
     _, closed, (offsets, ring_offsets) = shapely.to_ragged_array(parts)
@@ -173,7 +173,7 @@ def smoothed(parts: Geometries, times: int) -> Geometries:
 
 def _held(corners: Corners) -> BoolArray:
     """Return the corners that must stay: where rings touch, or something is too near."""
-    shapely = library(_PURPOSE)
+    shapely = shapely_for(_PURPOSE)
     # As complex numbers, points are told apart by one sort.
     plane = np.ascontiguousarray(corners.points).view(np.complex128)[:, 0]
     _, first, place, counts = np.unique(

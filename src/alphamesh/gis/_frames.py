@@ -124,7 +124,7 @@ def _triangles(shape: PlanarShape, asked: _Options) -> tuple[dict[str, Any], Any
         "radius": shape.filtration.radii[2].compress(inside),
     }
     columns |= _aggregated(columns, asked, shape.triangle_values, len(shape.points))
-    shapely = _shapely.library(_PURPOSE)
+    shapely = _shapely.shapely_for(_PURPOSE)
     corners = shape.points.take(shape.triangles[:, [0, 1, 2, 0]], axis=0)
     return columns, shapely.polygons(corners) if len(corners) else []
 
@@ -136,7 +136,7 @@ def _points(shape: PlanarShape, asked: _Options) -> tuple[dict[str, Any], Any]:
     given = {} if asked.data is None else as_columns(asked.data, len(shape.points))
     _refuse_twins(columns, given)
     columns |= given
-    return columns, _shapely.library(_PURPOSE).points(shape.points)
+    return columns, _shapely.shapely_for(_PURPOSE).points(shape.points)
 
 
 _KINDS: dict[str, Callable[[Any, _Options], tuple[dict[str, Any], Any]]] = {
@@ -202,7 +202,7 @@ def _elevation(shape: PlanarShape, asked: _Options) -> FloatArray | None:
 
 def _raised(shape: PlanarShape, geometries: Any, z: FloatArray) -> Any:
     """Return geometries with the elevations of the points that are their corners."""
-    shapely = _shapely.library(_PURPOSE)
+    shapely = _shapely.shapely_for(_PURPOSE)
     if len(geometries) == 0:
         return geometries
     # Corners are points bit for bit, so equal numbers tell them; a sum makes -0 to 0.
@@ -219,5 +219,5 @@ def point_frame(table: PointTable) -> Any:
     """Return a table of points as a GeoDataFrame; see :meth:`PointTable.to_geopandas`."""
     library = geopandas(_PURPOSE)
     _refuse_twins({}, table.columns)
-    points = _shapely.library(_PURPOSE).points(table.points)
+    points = _shapely.shapely_for(_PURPOSE).points(table.points)
     return library.GeoDataFrame(dict(table.columns), geometry=points, crs=table.crs)

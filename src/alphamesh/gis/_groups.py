@@ -175,7 +175,7 @@ def _geometry(shape: AlphaShape, collection: bool, simplify: float, smooth: int)
     whole = shape.geometry(collection=collection, simplify=simplify, smooth=smooth)
     if not collection:
         return whole
-    shapely = _shapely.library("Shapes of groups")
+    shapely = _shapely.shapely_for("Shapes of groups")
     parts = shapely.get_parts(whole)
     kinds = shapely.get_dimensions(parts)
     polygons, lines, places = (parts[kinds == dimension] for dimension in (2, 1, 0))

@@ -57,7 +57,7 @@ def alphashape(points: Any, alpha: float | None = None) -> Any:
     cloud = _cloud(points)
     if cloud.points.shape[1] == 3 and len(cloud) >= 4:
         return _in_space(cloud, alpha)
-    shapely = _shapely.library(_PURPOSE)
+    shapely = _shapely.shapely_for(_PURPOSE)
     few = len(cloud) < 4
     best = 0.0 if few or alpha is not None else optimizealpha(cloud)
     value = best if alpha is None else alpha_of(alpha)

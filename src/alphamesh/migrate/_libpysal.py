@@ -94,7 +94,7 @@ def alpha_shape_auto(
     here. For a shape with holes, or of several pieces: ``AlphaComplex(xys).at()``.
     """
     cx = AlphaComplex(as_cloud(xys, 2).points)
-    shapely = _shapely.library("alpha_shape_auto")
+    shapely = _shapely.shapely_for("alpha_shape_auto")
     radius = _tightest(cx.filtration) if cx.dimension == 2 else 0.0
     parts = cx.at(radius).polygons()
     made = parts[0] if len(parts) else shapely.Polygon()
