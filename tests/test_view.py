@@ -390,3 +390,14 @@ def test_the_command_wants_a_page(tmp_path, monkeypatch):
     assert ".html" in run("demo:disc", "-o", "page.png").output
     assert "Missing option" in run("demo:disc").output
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_shows_points_in_space(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    points = am.sample_solid("torus", 300, seed=1)
+    np.save("torus.npy", points)
+    done = run("torus.npy", "-r", "0.4", "-o", "page.html", "--title", "A torus")
+    assert done.exit_code == 0, done.output
+    am.AlphaComplex(points).view("wanted.html", 0.4, title="A torus")
+    written, wanted = ((tmp_path / f"{name}.html").read_bytes() for name in ("page", "wanted"))
+    assert written == wanted

@@ -47,15 +47,16 @@ def command(
     """Write a page that shows the complex live under a slider for the radius.
 
     INPUT is a mask image, a file of points, "-" for a table on standard input,
-    or demo:NAME for a built-in shape. The page is one HTML file with all in it:
-    it opens from disk, and asks for nothing from the network.
+    or demo:NAME for a built-in shape. Points with a third coordinate are in
+    space. The page is one HTML file with all in it: it opens from disk, and asks
+    for nothing from the network.
     """
     from alphamesh.view import write_page
 
     check_targets(pages, source)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        job = Job.begin(source, options, steps)
+        job = Job.begin(source, options, steps, space=True)
         choice = job.choose(radius, steps)
         heading = title or ("Standard input" if source == "-" else Path(source).name)
         with steps.step("Pairing simplices") as done:
