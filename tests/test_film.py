@@ -17,7 +17,6 @@ from PIL import Image
 
 import alphamesh as am
 from alphamesh.errors import (
-    DimensionError,
     FileWriteError,
     MissingLibraryError,
     ParameterError,
@@ -178,10 +177,6 @@ def test_filtrations_are_filmed_too_but_nothing_else(alpha, tmp_path):
     assert len(frames_of(film.path)) == 2
     with pytest.raises(ParameterError, match="not ndarray"):
         am.animate(alpha.points, tmp_path / "b.gif")
-    in_space = am.filtration(np.eye(3))
-    for source in (in_space, am.persistence(in_space)):
-        with pytest.raises(DimensionError, match="in the plane alone"):
-            am.animate(source, tmp_path / "b.gif")
 
 
 @pytest.mark.parametrize(

@@ -253,7 +253,7 @@ class AlphaComplex:
         return self.at(radius).plot(ax)
 
     def animate(self, path: str | os.PathLike[str], **options: Any) -> Film:
-        """Make a film of the growing radius: cells and complex side by side.
+        """Make a film of the growing radius: cells and complex, in space the complex alone.
 
         Parameters and errors are those of :func:`alphamesh.animate`.
         """

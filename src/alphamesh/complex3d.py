@@ -147,10 +147,6 @@ class AlphaComplex3D(AlphaComplex):
             f"restricted Voronoi cells are there in the plane alone; {_IN_PLANE}"
         )
 
-    def animate(self, *_: Any, **__: Any) -> NoReturn:
-        """Not there in space."""
-        raise DimensionError(f"films are made of clouds in the plane alone; {_IN_PLANE}")
-
     def __repr__(self) -> str:
         vertices, edges, triangles, tetrahedra = (f"{len(rows):,}" for rows in self.simplices)
         return (

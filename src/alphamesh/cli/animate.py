@@ -20,6 +20,7 @@ __all__ = ["command"]
 _EXAMPLES = (
     "alphamesh animate shape.png -o grow.gif",
     "alphamesh animate points.csv --frames 60 --width 640 -o grow.webp",
+    "alphamesh animate demo:torus --points 2000 --turn 120 -o torus.gif",
     "alphamesh animate demo:target --radii 0,5,10,20,40 --fps 1 -o steps.gif",
 )
 
@@ -68,15 +69,22 @@ _EXAMPLES = (
     show_default=True,
     help="Width in pixels.",
 )
+@click.option(
+    "--turn",
+    type=click.FloatRange(-3600, 3600),
+    help="Degrees that the camera turns in the course of the film; for points in space.  "
+    "[default: 60]",
+)
 @cloud_options
 def command(
     source: str, films: tuple[Path, ...], radii: Any, frames: int, **options: Any
 ) -> None:
-    """Make a film of discs that grow around the points, and of the mesh they give.
+    """Make a film of balls that grow around the points, and of the mesh they give.
 
     INPUT is a mask image, a file of points, "-" for a table on standard input,
     or demo:NAME for a built-in shape. Each frame shows the Voronoi cells cut by
-    the discs, the alpha complex, and how many components and holes there are.
+    the discs and the alpha complex, for points in space the complex and the same
+    cut open, and how many components and holes there are.
     """
     from alphamesh.film import film_radii
     from alphamesh.film.writers import need_writer
@@ -87,12 +95,12 @@ def command(
         need_writer((setting("to") or ".gif") if path == STREAM else path.suffix.lower())
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        job = Job.begin(source, options, steps)
+        job = Job.begin(source, options, steps, space=True)
         shown = film_radii(job.complex.persistence(), radii, frames)
 
         def write(path: Path) -> None:
             with steps.step(f"Drawing {len(shown):,} frames") as done:
-                look = {name: options[name] for name in ("fps", "hold", "width")}
+                look = {name: options[name] for name in ("fps", "hold", "width", "turn")}
                 job.complex.animate(path, radii=shown, progress=done, **look)
 
         outputs.write([Output(path, write, ".gif") for path in films], steps)

@@ -21,6 +21,7 @@ from alphamesh.cli.files import MeshFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import area_text
+from alphamesh.cli.whole import SpatialDelaunay
 
 if TYPE_CHECKING:
     from alphamesh.delaunay import Delaunay
@@ -34,13 +35,14 @@ _FRAMES = ("box", "circle", "hull")
 _EXAMPLES = (
     "alphamesh delaunay points.csv -o mesh.vtu",
     "alphamesh delaunay points.csv --frame hull --spacing 0.5 -o mesh.ply --plot mesh.png",
+    "alphamesh delaunay scan.ply -o tetrahedra.vtu",
     "alphamesh delaunay demo:eight --frame box --plot frame.png",
 )
 
 
 @click.command("delaunay", cls=Command, examples=_EXAMPLES)
 @source_argument
-@output_options(MeshFile(".ply"), "Write the triangles here", name="meshes")
+@output_options(MeshFile(".ply"), "Write the triangles or tetrahedra here", name="meshes")
 @click.option(
     "--frame",
     "shape",
@@ -69,7 +71,8 @@ def command(
 
     INPUT is a mask image, a file of points, "-" for a table on standard input,
     or demo:NAME for a built-in shape. The triangulation fills the convex hull;
-    with --frame it gives way where points of the frame come close.
+    with --frame it gives way where points of the frame come close. Points with a
+    third coordinate, a column z, are in space and give tetrahedra.
     """
     margin, spacing = options["margin"], options["spacing"]
     if shape is None and (margin is not None or spacing is not None):
@@ -78,26 +81,47 @@ def command(
     need_matplotlib(picture is not None)
     outputs = Outputs()
     with Steps(quiet=options["quiet"]) as steps:
-        job = Job.begin(source, options, steps)
-        job.need_plane()
+        job = Job.begin(source, options, steps, space=True)
         with steps.step("Finding neighbours"):
             made = _made(job, shape, margin, spacing)
-        files = [Output(path, lambda path: _write(made, path), ".ply") for path in meshes]
+        files = [Output(path, made.save, ".ply") for path in meshes]
         if picture is not None:
-            files.append(Output(picture, lambda path: _draw(made, path)))
+            files.append(Output(picture, made.draw))
         outputs.write(files, steps)
-    facts, lines = _told(made)
-    job.tell(facts, lines, outputs)
+    job.tell(*made.told(), outputs)
 
 
 def _made(
     job: Job, shape: str | None, margin: float | None, spacing: float | None
-) -> Delaunay | FramedDelaunay:
+) -> PlaneDelaunay | SpatialDelaunay:
+    if job.complex.points.shape[1] == 3:
+        if shape is not None:
+            raise click.UsageError("--frame is for points in the plane; try alphamesh mesh")
+        return SpatialDelaunay(job)
     if shape is None:
-        return job.complex.delaunay
+        return PlaneDelaunay(job.complex.delaunay)
     from alphamesh.frame import Frame, framed_delaunay
 
-    return framed_delaunay(job.complex.points, Frame(shape, margin, spacing))
+    return PlaneDelaunay(framed_delaunay(job.complex.points, Frame(shape, margin, spacing)))
+
+
+class PlaneDelaunay:
+    """A triangulation in the plane, and how to tell of it, write it and draw it."""
+
+    def __init__(self, made: Delaunay | FramedDelaunay) -> None:
+        self._made = made
+
+    def save(self, path: Path) -> None:
+        """Write its triangles, or, for points on a line, its edges."""
+        _write(self._made, path)
+
+    def draw(self, path: Path) -> None:
+        """Draw it, with its frame."""
+        _draw(self._made, path)
+
+    def told(self) -> tuple[dict[str, Any], dict[str, str]]:
+        """Return the summary for scripts and that for people."""
+        return _told(self._made)
 
 
 def _told(made: Delaunay | FramedDelaunay) -> tuple[dict[str, Any], dict[str, str]]:

@@ -18,6 +18,7 @@ __all__ = [
     "FilmFile",
     "FormatType",
     "GeoFile",
+    "HullFile",
     "MeshFile",
     "PageFile",
     "PointsFile",
@@ -157,6 +158,17 @@ class ConvertedFile(File):
     def formats(self) -> tuple[str, ...]:
         """Return the extensions of all."""
         kinds = (PointsFile(), MeshFile(), GeoFile())
+        return tuple(dict.fromkeys(suffix for kind in kinds for suffix in kind.formats()))
+
+
+class HullFile(File):
+    """A table of corners or, in space, a mesh to write."""
+
+    what = "table or, in space, mesh"
+
+    def formats(self) -> tuple[str, ...]:
+        """Return the extensions of both."""
+        kinds = (TableFile(), MeshFile())
         return tuple(dict.fromkeys(suffix for kind in kinds for suffix in kind.formats()))
 
 

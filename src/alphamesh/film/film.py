@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh.errors import (
-    DimensionError,
     FileWriteError,
     MissingLibraryError,
     ParameterError,
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
 
     from alphamesh._arrays import CountArray, FloatArray
     from alphamesh._kernels import Progress
+    from alphamesh.plot.growth import FilmView
 
 __all__ = ["FILM_FORMATS", "Film", "animate"]
 
@@ -44,8 +44,8 @@ class Film:
     path : pathlib.Path
     radii : (k,) float64
         The radius of each frame.
-    betti : (k, 2) int64
-        Components and holes in each frame.
+    betti : (k, 2) or (k, 3) int64
+        Components and holes in each frame; in space components, loops and voids.
     size : (width, height)
         In pixels.
     """
@@ -65,16 +65,19 @@ def animate(  # noqa: PLR0913 (all but two are options)
     fps: float = 10,
     hold: float = 1.5,
     width: int = 960,
+    turn: float | None = None,
     progress: Progress | None = None,
 ) -> Film:
-    """Make a film of a growing radius: restricted Voronoi cells beside the alpha complex.
+    """Make a film of a growing radius.
 
-    Each frame also tells its radius, how many components and holes there are, and where
-    on the Betti curves it stands.
+    In the plane it shows restricted Voronoi cells beside the alpha complex, in space the
+    complex, slowly turning, beside the same cut open. Each frame also tells its radius,
+    how many components and holes there are, and where on the Betti curves it stands.
 
     Parameters
     ----------
     source : AlphaComplex, Filtration or Persistence
+        In the plane or in space.
     path : path-like
         A ``.gif`` or ``.webp``, written with Pillow, or an ``.mp4``, for which the program
         ffmpeg must be installed. Written whole or not at all.
@@ -89,6 +92,9 @@ def animate(  # noqa: PLR0913 (all but two are options)
         Seconds that the last frame stays.
     width : int, default 960
         Width in pixels, from 200 to 4000; the height follows the cloud's proportions.
+    turn : float, optional
+        Degrees that the camera turns around the z-axis in the course of the film, 60 by
+        default; for clouds in space alone.
     progress : callable, optional
         Called with the fraction that is done, from 0 to 1, after each frame.
 
@@ -120,34 +126,32 @@ def animate(  # noqa: PLR0913 (all but two are options)
     _check_numbers(fps, hold, width)
     need_writer(suffix)
     pairs = _persistence_of(source)
+    degrees = _checked_turn(turn, pairs.filtration)
     chosen = film_radii(pairs, radii, frames)
-    reel = _reel(pairs, chosen, (fps, hold, width), progress)
+    view = _view(pairs, chosen, int(width), degrees)
+    last = max(len(chosen) - 1, 1)
+    reel = Reel(
+        view.size,
+        len(chosen),
+        float(fps),
+        float(hold),
+        lambda number: view.picture(float(chosen[number]), number / last),
+        progress,
+    )
     with atomic_path(target) as temporary:
         WRITERS[suffix](reel, temporary)
     return Film(target, chosen, pairs.betti_numbers(chosen), reel.size)
 
 
-def _reel(
-    pairs: Persistence,
-    radii: FloatArray,
-    look: tuple[float, float, int],
-    progress: Progress | None,
-) -> Reel:
-    """Return what draws the frames, and tells of the progress."""
+def _view(pairs: Persistence, radii: FloatArray, width: int, turn: float) -> FilmView:
+    """Return what draws the frames."""
     try:
-        from alphamesh.plot import GrowthView
+        from alphamesh.plot import GrowthView, GrowthView3D
     except MissingLibraryError:
         raise MissingLibraryError.of("matplotlib", "plot", "Drawing a film") from None
-    fps, hold, width = look
-    view = GrowthView(pairs, _shown(radii), width=int(width))
-    return Reel(
-        view.size,
-        len(radii),
-        float(fps),
-        float(hold),
-        lambda number: view.picture(float(radii[number])),
-        progress,
-    )
+    if isinstance(pairs.filtration, Filtration3D):
+        return GrowthView3D(pairs, _shown(radii), width=width, turn=turn)
+    return GrowthView(pairs, _shown(radii), width=width)
 
 
 def _shown(radii: FloatArray) -> tuple[float, float]:
@@ -164,9 +168,7 @@ def _shown(radii: FloatArray) -> tuple[float, float]:
 def _persistence_of(source: Any) -> Persistence:
     given = source if isinstance(source, Filtration | Filtration3D) else None
     filtration = getattr(source, "filtration", given)
-    if isinstance(filtration, Filtration3D):
-        raise DimensionError("films are made of clouds in the plane alone")
-    if not isinstance(filtration, Filtration):
+    if not isinstance(filtration, Filtration | Filtration3D):
         raise ParameterError(
             "a film needs an AlphaComplex, a Filtration or a Persistence, not "
             f"{type(source).__name__}; make one with alphamesh.AlphaComplex(points)"
@@ -184,3 +186,13 @@ def _check_numbers(fps: Any, hold: Any, width: Any) -> None:
             raise ParameterError(
                 f"{name} must be a number of {unit} from {low} to {high}; got {value!r}"
             )
+
+
+def _checked_turn(turn: Any, filtration: Filtration | Filtration3D) -> float:
+    if turn is None:
+        return 60.0
+    if not isinstance(filtration, Filtration3D):
+        raise ParameterError("only films of clouds in space turn; leave turn out")
+    if not isinstance(turn, Real) or not abs(float(turn)) <= 3600:
+        raise ParameterError(f"turn must be degrees from -3600 to 3600; got {turn!r}")
+    return float(turn)

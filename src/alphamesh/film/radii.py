@@ -82,14 +82,14 @@ def film_radii(persistence: Persistence, radii: Any = None, frames: int = 100) -
 def last_radius(persistence: Persistence) -> float:
     """Return the radius at which there is nothing more to see.
 
-    Beyond it are neither a gap between components nor the hole that lasts longest, only
-    flat triangles along the hull, whose circles are far larger than the cloud.
+    Beyond it are neither a gap between components nor the hole, loop or void that lasts
+    longest, only flat simplices along the hull, whose spheres are far larger than the cloud.
     """
-    lives = zip(persistence.births[:2], persistence.deaths[:2], strict=True)
-    (_, joined), (births, filled) = lives
+    (_, joined), *holes = zip(persistence.births, persistence.deaths, strict=True)
     last = float(joined.max(initial=0.0))
-    if len(births):
-        last = max(last, float(filled[np.argmax(filled - births)]))
+    for births, filled in holes:
+        if len(births):
+            last = max(last, float(filled[np.argmax(filled - births)]))
     return 1.1 * last
 
 

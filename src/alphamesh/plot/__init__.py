@@ -24,6 +24,7 @@ from alphamesh.plot.complexes import plot_complex, plot_delaunay, plot_filtratio
 from alphamesh.plot.cycles import plot_cycles
 from alphamesh.plot.drawing import Drawing, plot_cloud
 from alphamesh.plot.growth import GrowthView
+from alphamesh.plot.growth3d import GrowthView3D
 from alphamesh.plot.outlines import plot_frame, plot_hull
 from alphamesh.plot.overview import plot_overview
 from alphamesh.plot.overview3d import plot_cloud_in_space
@@ -39,6 +40,7 @@ __all__ = [
     "FIGURE_FORMATS",
     "Drawing",
     "GrowthView",
+    "GrowthView3D",
     "cell_coloring",
     "figure_bytes",
     "plot_barcode",

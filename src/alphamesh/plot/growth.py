@@ -1,7 +1,8 @@
-"""One frame of the film: cells and complex at one radius, and where on the way it is."""
+"""One frame of a film: two drawings at one radius, and where on the way it is."""
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,7 +24,7 @@ from alphamesh.shape import AlphaShape
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["GrowthView"]
+__all__ = ["FilmView", "GrowthView"]
 
 # Inches: the width of the figure, of its margins, and the heights of what is written and
 # of the Betti curves.
@@ -34,10 +35,8 @@ _CURVES = 1.05
 _AXIS = 0.42
 
 
-class GrowthView:
-    """A figure that shows restricted Voronoi cells and alpha complex at any radius.
-
-    Below them, components and holes against the radius, and a mark that moves.
+class FilmView:
+    """Two drawings at any radius, above Betti curves along which a mark moves.
 
     Parameters
     ----------
@@ -45,23 +44,24 @@ class GrowthView:
         Of the filtration to be shown.
     radii : (low, high)
         The range of radii that the Betti curves show, both positive.
-    width : int, default 960
-        Width of the pictures in pixels; their height follows the cloud's proportions. Both
-        are even, as some film formats demand.
+    titles : (str, str)
+        What is written above the two drawings.
+    slope : float
+        Height of a drawing over its width.
+    width : int
+        Width of the pictures in pixels; both sizes are even, as some film formats demand.
     """
 
     def __init__(
-        self, persistence: Persistence, radii: tuple[float, float], *, width: int = 960
+        self,
+        persistence: Persistence,
+        radii: tuple[float, float],
+        titles: tuple[str, str],
+        slope: float,
+        width: int,
     ) -> None:
         self._persistence = persistence
-        if not isinstance(persistence.filtration, Filtration):
-            raise DimensionError("cells and complex are drawn side by side in the plane alone")
-        self._filtration = persistence.filtration
-        points = self._filtration.points
-        edges = self._filtration.simplices[1]
-        self._coloring = cell_coloring(len(points), edges)
-        self._reach = radii[1]
-        self._axes, strip = _layout(points, self._reach, 2 * round(width / 2))
+        self._axes, strip = _layout(titles, slope, 2 * round(width / 2))
         self._mark = _betti_strip(strip, persistence, radii)
         self._figure = strip.figure.figure
         self._text = self._figure.text(
@@ -80,12 +80,60 @@ class GrowthView:
         width, height = self._figure.canvas.get_width_height()
         return width, height
 
-    def picture(self, radius: float) -> NDArray[np.uint8]:
-        """Return the picture at a finite radius, ``(height, width, 3)`` uint8."""
-        left, right = self._axes
-        for ax in (left, right):
+    def picture(self, radius: float, along: float = 0.0) -> NDArray[np.uint8]:
+        """Return the picture at a finite radius, ``(height, width, 3)`` uint8.
+
+        Parameters
+        ----------
+        radius : float
+        along : float, default 0
+            How far the film is, from 0 to 1.
+        """
+        for ax in self._axes:
             for artist in list(ax.collections):
                 artist.remove()
+        self._draw(radius, along)
+        low, high = self._mark.axes.get_xlim() if self._mark.axes else (0.0, 1.0)
+        self._mark.set_xdata([min(max(radius, low), high)] * 2)
+        numbers = self._persistence.betti_numbers(radius).tolist()
+        self._text.set_text(f"r = {_rounded(radius, high)}    {betti_text(*numbers)}")
+        drawn: Any = self._figure.canvas
+        drawn.draw()
+        return np.asarray(drawn.buffer_rgba())[:, :, :3].copy()
+
+    @abstractmethod
+    def _draw(self, radius: float, along: float) -> None:
+        """Draw both drawings on empty axes."""
+
+
+class GrowthView(FilmView):
+    """A figure that shows restricted Voronoi cells and alpha complex at any radius.
+
+    Parameters
+    ----------
+    persistence : Persistence
+        Of a filtration in the plane.
+    radii : (low, high)
+        See :class:`FilmView`.
+    width : int, default 960
+        Width of the pictures in pixels; their height follows the cloud's proportions.
+    """
+
+    def __init__(
+        self, persistence: Persistence, radii: tuple[float, float], *, width: int = 960
+    ) -> None:
+        if not isinstance(persistence.filtration, Filtration):
+            raise DimensionError("cells and complex are drawn side by side in the plane alone")
+        self._filtration = persistence.filtration
+        points = self._filtration.points
+        edges = self._filtration.simplices[1]
+        self._coloring = cell_coloring(len(points), edges)
+        self._reach = radii[1]
+        titles = "Voronoi cells within r", "Alpha complex at r"
+        super().__init__(persistence, radii, titles, _slope(points, self._reach), width)
+
+    def _draw(self, radius: float, along: float) -> None:
+        left, right = self._axes
         canvas = Canvas(self._filtration.points, left, reach=self._reach)
         if radius > 0:
             add_restricted(canvas, restricted_voronoi(self._filtration, radius), self._coloring)
@@ -93,31 +141,29 @@ class GrowthView:
             canvas.markers("points", slice(None), 0.6 * canvas.sizes.point)
         shape = AlphaShape(self._filtration, radius)
         add_complex(Canvas(self._filtration.points, right, reach=self._reach), shape)
-        low, high = self._mark.axes.get_xlim() if self._mark.axes else (0.0, 1.0)
-        self._mark.set_xdata([min(max(radius, low), high)] * 2)
-        b0, b1 = self._persistence.betti_numbers(radius).tolist()
-        self._text.set_text(f"r = {_rounded(radius, high)}    {betti_text(b0, b1)}")
-        drawn: Any = self._figure.canvas
-        drawn.draw()
-        return np.asarray(drawn.buffer_rgba())[:, :, :3].copy()
 
 
-def _layout(
-    points: NDArray[np.float64], reach: float, width: int
-) -> tuple[tuple[Axes, Axes], Axes]:
-    """Return the axes of cells and complex, and those of the Betti curves below."""
-    panel = (_WIDTH - 3 * _MARGIN) / 2
+def _slope(points: NDArray[np.float64], reach: float) -> float:
+    """Return the height over the width of axes that hold the cloud."""
     probe = new_figure(1, 1).add_axes((0, 0, 1, 1))
     frame(probe, points, reach)
     across, up = np.ptp(probe.get_xlim()), np.ptp(probe.get_ylim())
-    height = panel * float(np.clip(up / across, 0.25, 1.4))
+    return float(np.clip(up / across, 0.25, 1.4))
+
+
+def _layout(
+    titles: tuple[str, str], slope: float, width: int
+) -> tuple[tuple[Axes, Axes], Axes]:
+    """Return the axes of the two drawings, and those of the Betti curves below."""
+    panel = (_WIDTH - 3 * _MARGIN) / 2
+    height = panel * slope
     total = _HEADER + height + _CURVES + _AXIS
     dpi = width / _WIDTH
     total = 2 * round(total * dpi / 2) / dpi
     figure = new_figure(_WIDTH, total)
     figure.set_dpi(dpi)
     axes = []
-    for number, title in enumerate(("Voronoi cells within r", "Alpha complex at r")):
+    for number, title in enumerate(titles):
         x = _MARGIN + number * (panel + _MARGIN)
         bottom = (_AXIS + _CURVES) / total
         ax = figure.add_axes((x / _WIDTH, bottom, panel / _WIDTH, height / total))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from alphamesh.plot.drawing import Drawing
     from alphamesh.surface import Surface
 
-__all__ = ["VIEW", "plot_solid", "plot_surface"]
+__all__ = ["VIEW", "cutting_plane", "into_opening", "plot_solid", "plot_surface", "solid_scene"]
 
 # From the front, a little from above and from the right.
 VIEW = (24.0, -58.0)
@@ -97,13 +97,19 @@ def plot_solid(
     ParameterError
         If `cut` or `view` is not as above.
     """
-    plane = None if cut is None else _plane(cut, shape.points)
+    plane = None if cut is None else cutting_plane(cut, shape.points)
     if view is None:
-        view = VIEW if plane is None else _into(plane[0])
-    camera = Camera.at(_used(shape), view)
+        view = VIEW if plane is None else into_opening(plane[0])
+    return solid_scene(shape, Camera.at(_used(shape), view), plane).draw(ax)
+
+
+def solid_scene(
+    shape: BoundedShape, camera: Camera, plane: tuple[FloatArray, float] | None
+) -> Scene:
+    """Return what :func:`plot_solid` draws, as seen by a camera."""
     scene = _opened(shape, camera, plane) if plane else _closed(shape, camera)
     _add_singular(scene, shape, plane)
-    return scene.draw(ax)
+    return scene
 
 
 def _used(shape: BoundedShape) -> FloatArray:
@@ -166,7 +172,7 @@ def _kept(
     return np.asarray((points @ normal)[simplices].mean(axis=1) <= offset)
 
 
-def _plane(cut: Any, points: FloatArray) -> tuple[FloatArray, float]:
+def cutting_plane(cut: Any, points: FloatArray) -> tuple[FloatArray, float]:
     """Return the normal of a plane, and its product with points of the plane."""
     if isinstance(cut, str):
         name = cut.lower().removeprefix("+")
@@ -195,7 +201,7 @@ def _plane(cut: Any, points: FloatArray) -> tuple[FloatArray, float]:
     return normal, float(low / 2 + high / 2) if len(points) else 0.0
 
 
-def _into(normal: FloatArray) -> tuple[float, float]:
+def into_opening(normal: FloatArray) -> tuple[float, float]:
     """Return a view of the side that a plane's normal points to, a little aslant."""
     x, y, z = normal / np.linalg.norm(normal)
     elevation = float(np.degrees(np.arcsin(np.clip(z, -1.0, 1.0))))
