@@ -61,12 +61,14 @@ nb::tuple rings2_py(const Points2& points, const Ids& triangles, const Ids& edge
 
 nb::tuple persistence2_py(const Points2& points, const Ids& triangles, const Values& triangle_radii,
                           const Ids& edges, const Values& edge_radii, const Ids& edge_triangles,
-                          int threads, const nb::object& progress) {
+                          const Values& births, int threads, const nb::object& progress) {
   const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
   Job job(useful_threads(threads, view.n));
   Pairs2 pairs;
-  run_watched(job, view.n, progress,
-              [&] { pairs = persistence2(view, triangle_radii.data(), edge_radii.data(), job); });
+  run_watched(job, view.n, progress, [&] {
+    pairs =
+        persistence2(view, births_or_null(births), triangle_radii.data(), edge_radii.data(), job);
+  });
   return nb::make_tuple(array(std::move(pairs.components), 2), array(std::move(pairs.loops), 2));
 }
 
@@ -143,7 +145,8 @@ NB_MODULE(_core, m) {
         nb::arg("edge_triangles"), nb::arg("threads"));
   m.def("persistence2", &persistence2_py, nb::arg("points"), nb::arg("triangles"),
         nb::arg("triangle_radii"), nb::arg("edges"), nb::arg("edge_radii"),
-        nb::arg("edge_triangles"), nb::arg("threads"), nb::arg("progress").none());
+        nb::arg("edge_triangles"), nb::arg("births"), nb::arg("threads"),
+        nb::arg("progress").none());
   m.def("orient2", &orient2, nb::arg("points"));
   m.def("dot2", &dot2, nb::arg("points"));
   m.def("incircle2", &incircle2, nb::arg("points"), nb::arg("perturb"));

@@ -115,6 +115,11 @@ using Ids = nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::devic
 using Values = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Flags = nb::ndarray<const bool, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
+// Values of points: an empty array where all are born at once.
+inline const double* births_or_null(const Values& births) {
+  return births.shape(0) == 0 ? nullptr : births.data();
+}
+
 inline ComplexView2 view_of(const Points2& points, const Ids& triangles, const Ids& edges,
                             const Ids& edge_triangles) {
   return {points.data(), points.shape(0), triangles.data(),     triangles.shape(0),

@@ -11,8 +11,9 @@ namespace {
 nb::tuple persistence3_py(std::size_t n, const Ids& edges, const Values& edge_radii,
                           const Ids& triangle_edges, const Values& triangle_radii,
                           const Ids& triangle_tetrahedra, const Values& tetrahedron_radii,
-                          int threads, const nb::object& progress) {
+                          const Values& births, int threads, const nb::object& progress) {
   const FiltrationView3 view{n,
+                             births_or_null(births),
                              edges.data(),
                              edge_radii.data(),
                              edges.shape(0),
@@ -42,7 +43,8 @@ std::size_t component_count(std::size_t n, const Ids& pairs) {
 void bind_persistence3(nb::module_& m) {
   m.def("persistence3", &persistence3_py, nb::arg("n"), nb::arg("edges"), nb::arg("edge_radii"),
         nb::arg("triangle_edges"), nb::arg("triangle_radii"), nb::arg("triangle_tetrahedra"),
-        nb::arg("tetrahedron_radii"), nb::arg("threads"), nb::arg("progress").none());
+        nb::arg("tetrahedron_radii"), nb::arg("births"), nb::arg("threads"),
+        nb::arg("progress").none());
   m.def("component_count", &component_count, nb::arg("n"), nb::arg("pairs"));
 }
 

@@ -11,12 +11,13 @@ namespace {
 
 using Id = std::int32_t;
 
-// Bits of a double that is not negative, in its order.
+// Bits of a double, in its order: those of negative ones are turned around, and lie below.
 std::uint64_t bits_of(double v) {
-  const double positive = v + 0.0;  // no negative zero
+  constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
+  const double plain = v + 0.0;  // no negative zero
   std::uint64_t b;
-  std::memcpy(&b, &positive, sizeof b);
-  return b;
+  std::memcpy(&b, &plain, sizeof b);
+  return (b & kSign) == 0 ? b | kSign : ~b;
 }
 
 constexpr std::size_t kPoll = 0xffff;
@@ -71,10 +72,14 @@ Buffer<std::uint64_t> ascending(const double* value, std::size_t n, Job& job) {
   return words;
 }
 
-Buffer<Id> pair_components(std::size_t n, const Id* edges, const Buffer<std::uint64_t>& order,
-                           const Job& job) {
+Buffer<Id> pair_components(std::size_t n, const double* births, const Id* edges,
+                           const Buffer<std::uint64_t>& order, const Job& job) {
   DisjointSets sets(n);
   Found found(n);
+  auto younger = [&](Id a, Id b) {
+    if (births != nullptr && births[a] != births[b]) return births[a] > births[b];
+    return a > b;
+  };
   for (std::size_t i = 0; i < order.size(); ++i) {
     if ((i & kPoll) == 0) job.poll();
     if (i + kAhead < order.size()) {
@@ -86,8 +91,8 @@ Buffer<Id> pair_components(std::size_t n, const Id* edges, const Buffer<std::uin
     const std::size_t e = row_of(order[i]);
     const Id a = sets.root(edges[2 * e]), b = sets.root(edges[2 * e + 1]);
     if (a == b) continue;
-    const Id young = std::max(a, b);
-    sets.join(young, std::min(a, b));
+    const Id young = younger(a, b) ? a : b;
+    sets.join(young, young == a ? b : a);
     found.add(young, static_cast<Id>(e));
   }
   return found.trimmed();

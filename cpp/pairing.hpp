@@ -10,16 +10,16 @@
 
 namespace alphamesh {
 
-// The rows of `value` (none negative) in ascending order, equal values by row: the lower
-// halves of the words.
+// The rows of `value` in ascending order, equal values by row: the lower halves of the words.
 Buffer<std::uint64_t> ascending(const double* value, std::size_t n, Job& job);
 
 inline std::uint32_t row_of(std::uint64_t word) { return static_cast<std::uint32_t>(word); }
 
 // Pairs (vertex, edge): the edge joins the component that began with the vertex to an older
-// one. All vertices are born at zero, so that the lower row is older. `edges` is (E, 2) rows
-// of the n points, `order` is that of the edges.
-Buffer<std::int32_t> pair_components(std::size_t n, const std::int32_t* edges,
+// one. `births` are those of the n points, null if all are born at once; of equally old ones
+// the lower row is older. `edges` is (E, 2) rows of points, `order` is that of the edges.
+Buffer<std::int32_t> pair_components(std::size_t n, const double* births,
+                                     const std::int32_t* edges,
                                      const Buffer<std::uint64_t>& order, const Job& job);
 
 // Pairs (facet, cell): the facet closes off a hollow that the cell fills at last. `cofaces`

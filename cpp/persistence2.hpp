@@ -21,8 +21,9 @@ struct Pairs2 {
 // Components by Kruskal's order of the edges, loops by the same on the dual graph backwards
 // (Delfinado & Edelsbrunner 1995; Edelsbrunner & Harer 2010, ch. VII): removing simplices
 // from the whole plane, the triangles and the outside grow together across edges. Simplices
-// of equal value are ordered by dimension, then by row.
-Pairs2 persistence2(const ComplexView2& view, const double* triangle_radii,
+// of equal value are ordered by dimension, then by row. `births` are the values of the points,
+// null if all are born at once.
+Pairs2 persistence2(const ComplexView2& view, const double* births, const double* triangle_radii,
                     const double* edge_radii, Job& job);
 
 }  // namespace alphamesh

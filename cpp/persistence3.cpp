@@ -168,7 +168,7 @@ Pairs3 persistence3(const FiltrationView3& view, Job& job) {
                                view.tetrahedron_count, job);
       job.advance(0.25);
     } else {
-      out.components = pair_components(view.n, view.edges, edge_order, job);
+      out.components = pair_components(view.n, view.births, view.edges, edge_order, job);
       job.advance(0.05);
     }
   });

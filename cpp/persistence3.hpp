@@ -12,6 +12,7 @@ namespace alphamesh {
 // What output3.hpp and incidence3.hpp made, as it comes back from the caller.
 struct FiltrationView3 {
   std::size_t n;              // points
+  const double* births;       // their values; null if all are born at once
   const std::int32_t* edges;  // (E, 2) rows of points, ascending
   const double* edge_radii;
   std::size_t edge_count;
