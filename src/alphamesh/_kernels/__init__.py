@@ -194,6 +194,8 @@ def persistence2(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
     edge_triangles: IntArray,
     threads: int | None = None,
     progress: Progress | None = None,
+    *,
+    births: FloatArray | None = None,
 ) -> tuple[IntArray, IntArray]:
     """Return the simplices that begin and end each class of a 2D filtration.
 
@@ -207,6 +209,9 @@ def persistence2(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
     edge_triangles : (E, 2) int32
     threads : int, optional
     progress : callable, optional
+    births : (n,) float64, optional
+        When each point joins; by default all at once. Of two equally old ones, the lower
+        row is older.
 
     Returns
     -------
@@ -218,7 +223,15 @@ def persistence2(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
     threads = resolve_threads(threads)
     _check_progress(progress)
     pairs = _core.persistence2(
-        points, triangles, triangle_radii, edges, edge_radii, edge_triangles, threads, progress
+        points,
+        triangles,
+        triangle_radii,
+        edges,
+        edge_radii,
+        edge_triangles,
+        np.empty(0) if births is None else births,
+        threads,
+        progress,
     )
     for array in pairs:
         array.setflags(write=False)

@@ -30,6 +30,42 @@ def delaunay2(
     NDArray[np.int32],
     NDArray[np.int32],
 ]: ...
+def regular2(
+    points: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    threads: int,
+    progress: Callable[[float], object] | None,
+) -> tuple[
+    int,
+    NDArray[np.int32] | None,
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.float64],
+]: ...
+def regular3(
+    points: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    threads: int,
+    progress: Callable[[float], object] | None,
+) -> tuple[
+    int,
+    NDArray[np.int32] | None,
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+]: ...
 def persistence2(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],
@@ -37,6 +73,7 @@ def persistence2(
     edges: NDArray[np.int32],
     edge_radii: NDArray[np.float64],
     edge_triangles: NDArray[np.int32],
+    births: NDArray[np.float64],
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
@@ -48,6 +85,7 @@ def persistence3(
     triangle_radii: NDArray[np.float64],
     triangle_tetrahedra: NDArray[np.int32],
     tetrahedron_radii: NDArray[np.float64],
+    births: NDArray[np.float64],
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]: ...

@@ -25,6 +25,8 @@ def persistence3(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
     tetrahedron_radii: FloatArray,
     threads: int | None = None,
     progress: Progress | None = None,
+    *,
+    births: FloatArray | None = None,
 ) -> tuple[IntArray, IntArray, IntArray]:
     """Return the simplices that begin and end each class of a 3D filtration.
 
@@ -40,6 +42,9 @@ def persistence3(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
     tetrahedron_radii : (T,) float64
     threads : int, optional
     progress : callable, optional
+    births : (n,) float64, optional
+        When each point joins; by default all at once. Of two equally old ones, the lower
+        row is older.
 
     Returns
     -------
@@ -60,6 +65,7 @@ def persistence3(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
         triangle_radii,
         triangle_tetrahedra,
         tetrahedron_radii,
+        np.empty(0) if births is None else births,
         threads,
         progress,
     )
