@@ -36,9 +36,9 @@ def arrays_of(result):
     """Return the arrays of a record by name, tuples taken apart."""
     found = {}
     for field in fields(result):
-        if field.name == "crs":  # what came with the points
-            continue
         value = getattr(result, field.name)
+        if field.name == "crs" or value is None:  # what came with the points, or did not
+            continue
         parts = value if isinstance(value, tuple) else (value,)
         found |= {f"{field.name}[{k}]": part for k, part in enumerate(parts)}
     return found

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from alphamesh._arrays import read_only
+from alphamesh.classify import least_text
 from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -34,13 +35,19 @@ class StepCurve(NamedTuple):
     values: CountArray
 
 
-def checked_radii(radius: ArrayLike) -> FloatArray:
+def checked_radii(radius: ArrayLike, *, signed: bool = False) -> FloatArray:
     """Return `radius` as a float64 array, or say what is wrong with it.
+
+    Parameters
+    ----------
+    radius : array-like of float
+    signed : bool, default False
+        Whether the balls have weights: a negative radius makes them smaller.
 
     Raises
     ------
     ParameterError
-        If a radius is not a real number, negative or NaN.
+        If a radius is not a real number, or NaN, or negative without weights.
     """
     array = np.asarray(radius)
     if array.dtype.kind not in "iuf":
@@ -48,11 +55,10 @@ def checked_radii(radius: ArrayLike) -> FloatArray:
             f"a radius must be a number in the units of the points; got {radius!r}"
         )
     radii = array.astype(np.float64)
-    wrong = ~(radii >= 0)  # NaN, too
+    wrong = np.isnan(radii) if signed else ~(radii >= 0)  # NaN, too
     if wrong.any():
         raise ParameterError(
-            "a radius must be 0 or more (infinity for the whole triangulation); "
-            f"got {radii[wrong].flat[0]}"
+            f"a radius must be {least_text(signed=signed)}; got {radii[wrong].flat[0]}"
         )
     return radii
 
@@ -79,10 +85,17 @@ def alive_counts(births: FloatArray, deaths: FloatArray, radii: FloatArray) -> C
 def steps_of(
     values_at: Callable[[FloatArray], CountArray],
     lives: Iterable[tuple[FloatArray, FloatArray]],
+    *,
+    signed: bool = False,
 ) -> StepCurve:
-    """Return the step function `values_at`, which changes at births and deaths only."""
+    """Return the step function `values_at`, which changes at births and deaths only.
+
+    It starts with 0; with the first birth, if there is one, where radii are `signed`.
+    """
     events = [values for life in lives for values in life]
     radii = np.unique(np.concatenate(([0.0], *events)))
+    if signed and any(map(len, events)):
+        radii = np.unique(np.concatenate(events))
     values = values_at(radii)
     columns = values.reshape(len(radii), values.size // len(radii))
     kept = np.append(True, (np.diff(columns, axis=0) != 0).any(axis=1))

@@ -20,6 +20,8 @@ from alphamesh._arrays import Record, read_only
 from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
 
 __all__ = [
@@ -27,9 +29,11 @@ __all__ = [
     "SimplexKind",
     "checked_radius",
     "chosen",
+    "critical_radii",
     "face_intervals",
     "facet_intervals",
     "least_at_vertices",
+    "least_text",
     "reached",
     "vertex_intervals",
 ]
@@ -85,24 +89,50 @@ def reached(since: FloatArray, radius: float) -> BoolArray:
     return since <= min(radius, sys.float_info.max)
 
 
-def checked_radius(radius: object) -> float:
-    """Return `radius` as a float of at least 0.
+def checked_radius(radius: object, *, signed: bool = False) -> float:
+    """Return `radius` as a float, of at least 0 unless it is `signed`.
+
+    Parameters
+    ----------
+    radius : object
+    signed : bool, default False
+        Whether the balls have weights: a negative radius makes them smaller.
 
     Raises
     ------
     ParameterError
-        If it is not a number, negative or NaN.
+        If it is not a number, or NaN, or negative without weights.
     """
     if not isinstance(radius, Real):
         raise ParameterError(
             f"radius must be a number in the units of the points; got {radius!r}"
         )
     value = float(radius)
-    if math.isnan(value) or value < 0:
-        raise ParameterError(
-            f"radius must be 0 or more (infinity for the whole triangulation); got {value}"
-        )
+    if math.isnan(value) or (value < 0 and not signed):
+        raise ParameterError(f"radius must be {least_text(signed=signed)}; got {value}")
     return value
+
+
+def least_text(*, signed: bool) -> str:
+    """Return ``"0 or more"`` and what infinity means; with weights, any number will do."""
+    if signed:
+        return "a number, negative for smaller balls (infinity for the whole triangulation)"
+    return "0 or more (infinity for the whole triangulation)"
+
+
+def critical_radii(radii: Sequence[FloatArray], *, weighted: bool) -> FloatArray:
+    """Return all values of a filtration, ascending, without repeats.
+
+    Parameters
+    ----------
+    radii : sequence of (m_k,) float64
+        By dimension.
+    weighted : bool
+        Without weights, all vertices have the same value.
+    """
+    vertices, *others = radii
+    first = vertices if weighted else vertices[:1]
+    return read_only(np.unique(np.concatenate((first, *others))))
 
 
 def facet_intervals(radii: FloatArray, cofaces: IntArray, cell_radii: FloatArray) -> Intervals:
@@ -127,12 +157,17 @@ def facet_intervals(radii: FloatArray, cofaces: IntArray, cell_radii: FloatArray
 
 
 def vertex_intervals(
-    vertices: IntArray, triangles: IntArray, triangle_radii: FloatArray, hull_edges: IntArray
+    radii: FloatArray,
+    vertices: IntArray,
+    triangles: IntArray,
+    triangle_radii: FloatArray,
+    hull_edges: IntArray,
 ) -> Intervals:
     """Return the intervals of vertices in the plane.
 
     Parameters
     ----------
+    radii : (m,) float64
     vertices : (m,) int32
         Rows, ascending; all corners are among them.
     triangles : (T, 3) int32
@@ -141,13 +176,13 @@ def vertex_intervals(
         Edges with less than two triangles.
     """
     least = least_at_vertices(vertices, triangles, triangle_radii)
-    greatest = np.zeros(_rows_up_to(vertices))
+    greatest = np.full(_rows_up_to(vertices), -np.inf)
     for corner in range(3):
         np.maximum.at(greatest, triangles[:, corner], triangle_radii)
     greatest[hull_edges] = np.inf
     greatest = greatest.take(vertices)
     greatest[least == np.inf] = np.inf
-    return Intervals(read_only(np.zeros(len(vertices))), least, read_only(greatest))
+    return Intervals(radii, least, read_only(greatest))
 
 
 def face_intervals(radii: FloatArray, faces: IntArray, above: Intervals) -> Intervals:
@@ -167,7 +202,7 @@ def face_intervals(radii: FloatArray, faces: IntArray, above: Intervals) -> Inte
     for column in faces.T:
         np.minimum.at(least, column, above.regular_from)
         np.maximum.at(greatest, column, above.interior_from)
-    greatest[greatest < 0] = np.inf  # no coface at all
+    greatest[greatest == -np.inf] = np.inf  # no coface at all
     return Intervals(radii, read_only(least), read_only(greatest))
 
 

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self
 
-import numpy as np
-
-from alphamesh import export
-from alphamesh._arrays import read_only
+from alphamesh.classify import critical_radii
 from alphamesh.curves import MeasureCurves, measure_curves
+from alphamesh.export import Exports
 from alphamesh.filtration import filtration_in_plane
 from alphamesh.hull import ConvexHull
 from alphamesh.hull import convex_hull as find_convex_hull
@@ -38,7 +36,7 @@ __all__ = ["AlphaComplex"]
 _MOST_PICTURED = 50_000
 
 
-class AlphaComplex:
+class AlphaComplex(Exports):
     """The alpha complex of a cloud: its Delaunay triangulation and exact filtration.
 
     Parameters
@@ -48,6 +46,10 @@ class AlphaComplex:
         GeoSeries and lists of Points; tables from :func:`alphamesh.read_table`. Copied.
         Duplicates are merged. Any number of points is legal: none, one, all on one line.
         Three columns give an :class:`~alphamesh.AlphaComplex3D`.
+    weights : array-like of shape (n,), optional
+        Squared radii of balls around the points, of any sign, in squared units of the
+        points: the ball of point i has the squared radius ``weights[i] + r**2`` at radius r,
+        and ``weights[i] - r**2`` at radius -r [1]_. By default all balls are of equal size.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
         on it.
@@ -58,6 +60,8 @@ class AlphaComplex:
     ------
     CloudShapeError, NonFiniteError, CoordinateRangeError, CloudTooLargeError
         If there is no exact complex of such points; the message names the rows.
+    WeightsError
+        If there is not one finite weight for each point.
     ParameterError
         If `threads` or `progress` is not what it must be.
 
@@ -70,6 +74,11 @@ class AlphaComplex:
     -----
     Nothing in an alpha complex can change: arrays are read-only, and a copy is the
     object itself.
+
+    References
+    ----------
+    .. [1] H. Edelsbrunner, The union of balls and its dual shape, Discrete &
+       Computational Geometry 13 (1995) 415-440.
 
     Examples
     --------
@@ -89,10 +98,15 @@ class AlphaComplex:
     _voronoi: Voronoi | None
 
     def __new__(
-        cls, points: Any, *, threads: int | None = None, progress: Progress | None = None
+        cls,
+        points: Any,
+        *,
+        weights: Any = None,
+        threads: int | None = None,
+        progress: Progress | None = None,
     ) -> Self:
         """Return an :class:`~alphamesh.AlphaComplex3D` if the points have three columns."""
-        cloud = as_cloud(points)
+        cloud = as_cloud(points, weights=weights)
         kind: Any = cls
         if cls is AlphaComplex and cloud.points.shape[1] == 3:
             from alphamesh.complex3d import AlphaComplex3D
@@ -121,9 +135,22 @@ class AlphaComplex:
         return self._filtration.crs
 
     @property
+    def weights(self) -> FloatArray | None:
+        """Squared radii of the balls, ``(n,)`` float64; None for balls of equal size."""
+        return self._filtration.weights
+
+    @property
     def representative(self) -> IntArray:
-        """The lowest row with the coordinates of each row, ``(n,)`` int32."""
+        """The lowest row with the coordinates of each row, ``(n,)`` int32.
+
+        With weights, the lowest of the heaviest with these coordinates.
+        """
         return self._filtration.representative
+
+    @property
+    def hidden(self) -> IntArray:
+        """Rows that heavier points leave no part of the power diagram, ``(h,)`` int32."""
+        return self._filtration.hidden
 
     @property
     def dimension(self) -> int:
@@ -207,7 +234,7 @@ class AlphaComplex:
         ----------
         radius : float, optional
             In the units of the points; by default the one that :meth:`choose_radius`
-            chooses.
+            chooses. Negative ones are for points with weights alone.
 
         Returns
         -------
@@ -216,7 +243,7 @@ class AlphaComplex:
         Raises
         ------
         ParameterError
-            If `radius` is not a number, negative or NaN.
+            If `radius` is not a number, or NaN, or negative without weights.
         EmptyCloudError
             If there are no points to choose a radius for.
         """
@@ -230,11 +257,10 @@ class AlphaComplex:
         Returns
         -------
         (k,) float64
-            Starts with 0, where the points appear, unless there are none. Between one
-            and the next, all complexes are the same.
+            Starts with 0, where the points appear, unless there are none or they have
+            weights. Between one and the next, all complexes are the same.
         """
-        vertices, edges, triangles = self._filtration.radii
-        return read_only(np.unique(np.concatenate((vertices[:1], edges, triangles))))
+        return critical_radii(self._filtration.radii, weighted=self.weights is not None)
 
     def measure_curves(self) -> MeasureCurves:
         """Return area, perimeter and counts as functions of the radius, in one pass.
@@ -260,27 +286,6 @@ class AlphaComplex:
         from alphamesh.film import animate
 
         return animate(self.persistence(), path, **options)
-
-    def to_gudhi(self, *, squared: bool = False) -> Any:
-        """Return the complex as a ``gudhi.SimplexTree``, its values radii or their squares.
-
-        Parameters and errors are those of :func:`alphamesh.export.to_gudhi`.
-        """
-        return export.to_gudhi(self._filtration, squared=squared)
-
-    def to_numpy(self) -> dict[str, np.ndarray[Any, Any]]:
-        """Return points, simplices and radii as a plain dict of arrays.
-
-        The names are those of :func:`alphamesh.export.to_numpy`.
-        """
-        return export.to_numpy(self._filtration)
-
-    def save_npz(self, path: str | os.PathLike[str]) -> None:
-        """Write :meth:`to_numpy` into one file, to be read by ``numpy.load``.
-
-        Parameters and errors are those of :func:`alphamesh.export.write_npz`.
-        """
-        export.write_npz(self._filtration, path)
 
     def view(
         self,

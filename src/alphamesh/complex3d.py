@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NoReturn
 
-import numpy as np
-
-from alphamesh._arrays import read_only
+from alphamesh.classify import critical_radii
 from alphamesh.complex import AlphaComplex
 from alphamesh.curves3d import MeasureCurves3D, measure_curves_in_space
 from alphamesh.errors import DimensionError
@@ -36,6 +34,8 @@ class AlphaComplex3D(AlphaComplex):
     points : array-like of shape (n, 3)
         Arrays, lists, DataFrames of three numeric columns; copied. Duplicates are merged.
         Any number of points is legal: none, one, all on one line or in one plane.
+    weights : array-like of shape (n,), optional
+        Squared radii of balls; by default all balls are of equal size.
     threads, progress : optional
         See :class:`~alphamesh.AlphaComplex`, also for the errors.
 
@@ -107,8 +107,7 @@ class AlphaComplex3D(AlphaComplex):
         (k,) float64
             See :meth:`AlphaComplex.critical_radii`.
         """
-        vertices, *others = self._filtration.radii
-        return read_only(np.unique(np.concatenate((vertices[:1], *others))))
+        return critical_radii(self._filtration.radii, weighted=self.weights is not None)
 
     def plot(
         self, radius: float | None = None, ax: Axes | None = None, **options: Any

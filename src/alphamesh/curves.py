@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from alphamesh._arrays import CountArray, FloatArray
     from alphamesh.filtration import Filtration
 
-__all__ = ["MeasureCurves", "Sums", "count_up_to", "measure_curves"]
+__all__ = ["MeasureCurves", "Sums", "count_up_to", "measure_curves", "vertices_up_to"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -73,7 +73,8 @@ class MeasureCurves(Record):
     Attributes
     ----------
     vertex_count : int
-        Distinct points; all of them are in the complex from 0 on.
+        Distinct points that are not hidden; without weights, all of them are in the complex
+        from 0 on.
     edge_radii : (E,) float64
         Filtration values of edges, ascending.
     """
@@ -83,6 +84,7 @@ class MeasureCurves(Record):
     _areas: Sums
     _lengths: Sums
     _exponent: int
+    _vertex_radii: FloatArray | None = None
 
     @property
     def triangle_radii(self) -> FloatArray:
@@ -103,9 +105,9 @@ class MeasureCurves(Record):
         Raises
         ------
         ParameterError
-            If a radius is not a number, negative or NaN.
+            If a radius is not a number, or NaN, or negative without weights.
         """
-        return self._areas.at(checked_radii(radius), 2 * self._exponent)
+        return self._areas.at(self._checked(radius), 2 * self._exponent)
 
     def perimeter(self, radius: ArrayLike) -> FloatArray:
         """Return the length of the boundary of the triangles, holes and all.
@@ -116,7 +118,7 @@ class MeasureCurves(Record):
         -------
         float64 array of the shape of `radius`
         """
-        return self._lengths.at(checked_radii(radius), self._exponent)
+        return self._lengths.at(self._checked(radius), self._exponent)
 
     def triangle_count(self, radius: ArrayLike) -> CountArray:
         """Return the number of triangles.
@@ -127,7 +129,7 @@ class MeasureCurves(Record):
         -------
         int64 array of the shape of `radius`
         """
-        return count_up_to(self.triangle_radii, checked_radii(radius))
+        return count_up_to(self.triangle_radii, self._checked(radius))
 
     def edge_count(self, radius: ArrayLike) -> CountArray:
         """Return the number of edges, singular ones and all.
@@ -138,7 +140,7 @@ class MeasureCurves(Record):
         -------
         int64 array of the shape of `radius`
         """
-        return count_up_to(self.edge_radii, checked_radii(radius))
+        return count_up_to(self.edge_radii, self._checked(radius))
 
     def euler_characteristic(self, radius: ArrayLike) -> CountArray:
         """Return vertices minus edges plus triangles: components minus holes.
@@ -149,9 +151,12 @@ class MeasureCurves(Record):
         -------
         int64 array of the shape of `radius`
         """
-        radii = checked_radii(radius)
+        radii = self._checked(radius)
         joined = count_up_to(self.triangle_radii, radii) - count_up_to(self.edge_radii, radii)
-        return np.asarray(joined + self.vertex_count)
+        return np.asarray(joined + vertices_up_to(self._vertex_radii, self.vertex_count, radii))
+
+    def _checked(self, radius: ArrayLike) -> FloatArray:
+        return checked_radii(radius, signed=self._vertex_radii is not None)
 
     def __repr__(self) -> str:
         changes = len(self.edge_radii) + len(self.triangle_radii)
@@ -161,6 +166,21 @@ class MeasureCurves(Record):
 def count_up_to(values: FloatArray, radii: FloatArray) -> CountArray:
     """Return how many of the ascending `values` are at most each radius, int64."""
     return np.asarray(np.searchsorted(values, radii, side="right"), dtype=np.int64)
+
+
+def vertices_up_to(
+    vertex_radii: FloatArray | None, count: int, radii: FloatArray
+) -> CountArray | int:
+    """Return how many vertices the complex has at each radius.
+
+    Parameters
+    ----------
+    vertex_radii : (count,) float64 or None
+        Ascending; None if all of them are 0.
+    count : int
+    radii : float64 array of any shape
+    """
+    return count if vertex_radii is None else count_up_to(vertex_radii, radii)
 
 
 def measure_curves(filtration: Filtration) -> MeasureCurves:
@@ -175,7 +195,7 @@ def measure_curves(filtration: Filtration) -> MeasureCurves:
     MeasureCurves
     """
     vertices, edges, triangles = filtration.simplices
-    _, edge_radii, triangle_radii = filtration.radii
+    vertex_radii, edge_radii, triangle_radii = filtration.radii
     points, exponent = scaled_points(filtration.points)
     areas = filtration.triangle_areas if exponent == 0 else triangle_areas(points, triangles)
     steps = points.take(edges[:, 1], axis=0) - points.take(edges[:, 0], axis=0)
@@ -189,4 +209,5 @@ def measure_curves(filtration: Filtration) -> MeasureCurves:
         Sums.of(triangle_radii, areas),
         Sums.of(changes, np.concatenate((lengths, -lengths))),
         exponent,
+        None if filtration.weights is None else read_only(np.sort(vertex_radii)),
     )

@@ -9,7 +9,7 @@ import numpy as np
 
 from alphamesh._arrays import Record, read_only
 from alphamesh.betti import checked_radii
-from alphamesh.curves import Sums, count_up_to
+from alphamesh.curves import Sums, count_up_to, vertices_up_to
 from alphamesh.measures import tetrahedron_volumes, triangle_areas
 
 if TYPE_CHECKING:
@@ -35,7 +35,8 @@ class MeasureCurves3D(Record):
     Attributes
     ----------
     vertex_count : int
-        Distinct points; all of them are in the complex from 0 on.
+        Distinct points that are not hidden; without weights, all of them are in the complex
+        from 0 on.
     edge_radii : (E,) float64
         Filtration values of edges, ascending.
     triangle_radii : (F,) float64
@@ -48,6 +49,7 @@ class MeasureCurves3D(Record):
     _volumes: Sums
     _areas: Sums
     _exponent: int
+    _vertex_radii: FloatArray | None = None
 
     @property
     def tetrahedron_radii(self) -> FloatArray:
@@ -68,9 +70,9 @@ class MeasureCurves3D(Record):
         Raises
         ------
         ParameterError
-            If a radius is not a number, negative or NaN.
+            If a radius is not a number, or NaN, or negative without weights.
         """
-        return self._volumes.at(checked_radii(radius), 3 * self._exponent)
+        return self._volumes.at(self._checked(radius), 3 * self._exponent)
 
     def surface_area(self, radius: ArrayLike) -> FloatArray:
         """Return the area of the boundary of the tetrahedra, voids and all.
@@ -81,7 +83,7 @@ class MeasureCurves3D(Record):
         -------
         float64 array of the shape of `radius`
         """
-        return self._areas.at(checked_radii(radius), 2 * self._exponent)
+        return self._areas.at(self._checked(radius), 2 * self._exponent)
 
     def tetrahedron_count(self, radius: ArrayLike) -> CountArray:
         """Return the number of tetrahedra.
@@ -92,7 +94,7 @@ class MeasureCurves3D(Record):
         -------
         int64 array of the shape of `radius`
         """
-        return count_up_to(self.tetrahedron_radii, checked_radii(radius))
+        return count_up_to(self.tetrahedron_radii, self._checked(radius))
 
     def triangle_count(self, radius: ArrayLike) -> CountArray:
         """Return the number of triangles, singular ones and all.
@@ -103,7 +105,7 @@ class MeasureCurves3D(Record):
         -------
         int64 array of the shape of `radius`
         """
-        return count_up_to(self.triangle_radii, checked_radii(radius))
+        return count_up_to(self.triangle_radii, self._checked(radius))
 
     def edge_count(self, radius: ArrayLike) -> CountArray:
         """Return the number of edges, singular ones and all.
@@ -114,7 +116,7 @@ class MeasureCurves3D(Record):
         -------
         int64 array of the shape of `radius`
         """
-        return count_up_to(self.edge_radii, checked_radii(radius))
+        return count_up_to(self.edge_radii, self._checked(radius))
 
     def euler_characteristic(self, radius: ArrayLike) -> CountArray:
         """Return vertices minus edges plus triangles minus tetrahedra: b0 - b1 + b2.
@@ -125,10 +127,14 @@ class MeasureCurves3D(Record):
         -------
         int64 array of the shape of `radius`
         """
-        radii = checked_radii(radius)
-        even = count_up_to(self.triangle_radii, radii) + self.vertex_count
+        radii = self._checked(radius)
+        vertices = vertices_up_to(self._vertex_radii, self.vertex_count, radii)
+        even = count_up_to(self.triangle_radii, radii) + vertices
         odd = count_up_to(self.edge_radii, radii) + count_up_to(self.tetrahedron_radii, radii)
         return np.asarray(even - odd)
+
+    def _checked(self, radius: ArrayLike) -> FloatArray:
+        return checked_radii(radius, signed=self._vertex_radii is not None)
 
     def __repr__(self) -> str:
         kinds = (self.edge_radii, self.triangle_radii, self.tetrahedron_radii)
@@ -138,7 +144,7 @@ class MeasureCurves3D(Record):
 def measure_curves_in_space(filtration: Filtration3D) -> MeasureCurves3D:
     """Measure the complex at all radii at once; see :func:`alphamesh.measure_curves`."""
     vertices, _, triangles, tetrahedra = filtration.simplices
-    _, edge_radii, triangle_radii, tetrahedron_radii = filtration.radii
+    vertex_radii, edge_radii, triangle_radii, tetrahedron_radii = filtration.radii
     volumes, areas = filtration.tetrahedron_volumes, filtration.triangle_areas
     exponent = int(np.frexp(np.abs(filtration.points).max(initial=0.0))[1])
     if exponent in _SAFE_EXPONENTS:
@@ -157,4 +163,5 @@ def measure_curves_in_space(filtration: Filtration3D) -> MeasureCurves3D:
         Sums.of(tetrahedron_radii, volumes),
         Sums.of(changes, np.concatenate((areas, -areas))),
         exponent,
+        None if filtration.weights is None else read_only(np.sort(vertex_radii)),
     )

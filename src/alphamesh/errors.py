@@ -23,6 +23,8 @@ __all__ = [
     "MissingLibraryError",
     "NonFiniteError",
     "ParameterError",
+    "UnweightedOnlyError",
+    "WeightsError",
 ]
 
 _ROWS_SHOWN = 5
@@ -78,6 +80,10 @@ class CoordinateRangeError(CloudError):
     """Coordinates so far apart in scale that exact arithmetic would overflow or underflow."""
 
 
+class WeightsError(CloudError):
+    """Weights that are not one finite number for each point."""
+
+
 class CloudTooLargeError(CloudError):
     """More points than 32-bit simplex numbers can hold."""
 
@@ -96,6 +102,10 @@ class ParameterError(AlphameshError, ValueError):
 
 class DimensionError(AlphameshError, TypeError):
     """Something that clouds in the plane have, asked of a cloud in space."""
+
+
+class UnweightedOnlyError(AlphameshError, TypeError):
+    """Something that has a meaning for balls of equal size, asked of points with weights."""
 
 
 class FileReadError(AlphameshError, OSError):

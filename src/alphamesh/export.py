@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 
+from alphamesh._weights import signed_square
 from alphamesh.errors import MissingLibraryError
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = np.ndarray[Any, Any]
 
-__all__ = ["to_gudhi", "to_numpy", "write_npz"]
+__all__ = ["Exports", "to_gudhi", "to_numpy", "write_npz"]
 
 _NAMES = ("vertices", "edges", "triangles", "tetrahedra")
 _RADII = ("vertex_radii", "edge_radii", "triangle_radii", "tetrahedron_radii")
@@ -45,6 +46,16 @@ class Filtered(Protocol):
         """Values of the simplices, by dimension."""
         ...
 
+    @property
+    def weights(self) -> FloatArray | None:
+        """Squared radii of balls, or None."""
+        ...
+
+    @property
+    def hidden(self) -> IntArray:
+        """Rows that are in no simplex."""
+        ...
+
 
 def to_gudhi(filtration: Filtered, *, squared: bool = False) -> Any:
     """Return a filtration as a ``gudhi.SimplexTree``.
@@ -53,12 +64,12 @@ def to_gudhi(filtration: Filtered, *, squared: bool = False) -> Any:
     ----------
     filtration : Filtration
     squared : bool, default False
-        Give squared radii, as GUDHI's own alpha complexes do.
+        Give squared radii, as GUDHI's own alpha complexes do: with weights, power values.
 
     Returns
     -------
     gudhi.SimplexTree
-        Its vertices are the rows of the cloud, without duplicates.
+        Its vertices are the rows of the cloud, without duplicates and hidden ones.
 
     Raises
     ------
@@ -71,8 +82,7 @@ def to_gudhi(filtration: Filtered, *, squared: bool = False) -> Any:
         raise MissingLibraryError.of("gudhi", "gudhi", "A simplex tree") from missing
     tree = SimplexTree()
     for rows, radii in zip(filtration.simplices, filtration.radii, strict=True):
-        with np.errstate(over="ignore", under="ignore"):
-            values = np.square(radii) if squared else np.array(radii)
+        values = signed_square(radii) if squared else np.array(radii)
         tree.insert_batch(np.array(rows.T, order="C"), values)
     return tree
 
@@ -86,8 +96,9 @@ def to_numpy(filtration: Filtered) -> dict[str, Array]:
         ``points`` (n, d) float64; ``representative`` (n,) int32; then for each dimension
         the simplices, ``vertices`` (m_0, 1), ``edges`` (m_1, 2), ``triangles`` (m_2, 3)
         int32, rows of the points; and their values ``vertex_radii``, ``edge_radii``,
-        ``triangle_radii`` (m_k,) float64, in the units of the points. The arrays are
-        those of the filtration: read-only, not copied.
+        ``triangle_radii`` (m_k,) float64, in the units of the points. With weights, also
+        ``weights`` (n,) float64 and ``hidden`` (h,) int32. The arrays are those of the
+        filtration: read-only, not copied.
     """
     arrays: dict[str, Array] = {
         "points": filtration.points,
@@ -95,6 +106,8 @@ def to_numpy(filtration: Filtered) -> dict[str, Array]:
     }
     arrays.update(zip(_NAMES, filtration.simplices, strict=False))
     arrays.update(zip(_RADII, filtration.radii, strict=False))
+    if filtration.weights is not None:
+        arrays["weights"], arrays["hidden"] = filtration.weights, filtration.hidden
     return arrays
 
 
@@ -118,3 +131,32 @@ def write_npz(filtration: Filtered, path: str | os.PathLike[str]) -> None:
     with atomic_path(path) as temporary, temporary.open("wb") as file:
         arrays: Any = to_numpy(filtration)
         np.savez(file, **arrays)
+
+
+class Exports:
+    """What a complex can hand to other libraries: base of those that users hold."""
+
+    __slots__ = ()
+
+    _filtration: Any
+
+    def to_gudhi(self, *, squared: bool = False) -> Any:
+        """Return the complex as a ``gudhi.SimplexTree``, its values radii or their squares.
+
+        Parameters and errors are those of :func:`alphamesh.export.to_gudhi`.
+        """
+        return to_gudhi(self._filtration, squared=squared)
+
+    def to_numpy(self) -> dict[str, Array]:
+        """Return points, simplices and radii as a plain dict of arrays.
+
+        The names are those of :func:`alphamesh.export.to_numpy`.
+        """
+        return to_numpy(self._filtration)
+
+    def save_npz(self, path: str | os.PathLike[str]) -> None:
+        """Write :meth:`to_numpy` into one file, to be read by ``numpy.load``.
+
+        Parameters and errors are those of :func:`alphamesh.export.write_npz`.
+        """
+        write_npz(self._filtration, path)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -10,6 +10,8 @@ import numpy as np
 
 from alphamesh import _kernels
 from alphamesh._arrays import Record, read_only
+from alphamesh._kernels.weighted import regular2
+from alphamesh._weights import equal_weight, nothing_hidden, shifted_radii
 from alphamesh.classify import (
     Intervals,
     chosen,
@@ -23,6 +25,7 @@ from alphamesh.measures import scaled_points, triangle_areas
 from alphamesh.points import (
     as_cloud,
     at_positions,
+    births_of_rows,
     coordinate_error,
     merged_rows,
     refuse_overflow,
@@ -32,6 +35,7 @@ from alphamesh.points import (
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
+    from alphamesh.points import Cloud
 
 __all__ = ["AnyFiltration", "Filtration", "filtration", "filtration_in_plane"]
 
@@ -48,20 +52,33 @@ class Filtration(Record):
     circle (a Gabriel simplex), else the least value among its cofaces [1]_. Values never
     decrease from face to coface.
 
+    With weights, the ball of point i has the squared radius ``w_i + a`` at the power
+    parameter a. The triangulation is the regular one, dual to the power diagram [2]_, and
+    the value of a simplex is the least a at which it is in the complex, that of a Gabriel
+    simplex ``|z - p|**2 - w_p`` for its corners p and its orthocentre z [3]_. Where a
+    radius is shown, it is the signed root ``sign(a) * sqrt(|a|)``.
+
     Attributes
     ----------
     points : (n, 2) float64
     representative : (n,) int32
         The lowest row with the coordinates of row i: i itself unless it is a duplicate.
+        With weights, the lowest of the heaviest with these coordinates.
     simplices : tuple of (m_k, k + 1) int32
         Vertices, edges and triangles, as rows of `points`, ascending within a simplex.
         The order of the simplices depends on the geometry alone.
     radii : tuple of (m_k,) float64
-        The filtration values of `simplices`, in the units of the points.
+        The filtration values of `simplices`, in the units of the points: those of vertices
+        are 0 unless there are weights, and none is negative.
     edge_triangles : (m_1, 2) int32
         The one or two triangles that each edge belongs to; -1 for none.
     crs : pyproj.CRS or None
         The coordinate reference system of the points, if they came with one.
+    weights : (n,) float64 or None
+        Squared radii of balls, of any sign; None for balls of equal size.
+    hidden : (h,) int32
+        Rows that are in no simplex because heavier points leave them no part of the power
+        diagram, ascending. Rows equal to one that is there are not hidden.
 
     All arrays are read-only. Three entries are always there, possibly empty.
 
@@ -69,6 +86,10 @@ class Filtration(Record):
     ----------
     .. [1] H. Edelsbrunner and E. P. Mücke, Three-dimensional alpha shapes, ACM
        Transactions on Graphics 13 (1994) 43-72.
+    .. [2] F. Aurenhammer, Power diagrams: properties, algorithms and applications, SIAM
+       Journal on Computing 16 (1987) 78-96.
+    .. [3] H. Edelsbrunner, The union of balls and its dual shape, Discrete &
+       Computational Geometry 13 (1995) 415-440.
     """
 
     points: FloatArray
@@ -77,6 +98,8 @@ class Filtration(Record):
     radii: tuple[FloatArray, FloatArray, FloatArray]
     edge_triangles: IntArray
     crs: Any = None
+    weights: FloatArray | None = None
+    hidden: IntArray = field(default_factory=nothing_hidden)
 
     @property
     def dimension(self) -> int:
@@ -110,8 +133,9 @@ class Filtration(Record):
     def vertex_intervals(self) -> Intervals:
         """The radii at which the vertices become singular, regular and interior."""
         hull_edges = chosen(self.simplices[1], self.edge_triangles[:, 1] < 0)
+        vertices, _, triangles = self.simplices
         return vertex_intervals(
-            self.simplices[0][:, 0], self.simplices[2], self.radii[2], hull_edges
+            self.radii[0], vertices[:, 0], triangles, self.radii[2], hull_edges
         )
 
     @cached_property
@@ -156,10 +180,8 @@ class Filtration(Record):
         """
         known: tuple[IntArray, IntArray] | None = vars(self).get("_pairs")
         if known is None:
-            (vertices, edges, triangles), (_, edge_radii, triangle_radii) = (
-                self.simplices,
-                self.radii,
-            )
+            vertices, edges, triangles = self.simplices
+            vertex_radii, edge_radii, triangle_radii = self.radii
             components, loops = _kernels.persistence2(
                 self.points,
                 triangles,
@@ -169,6 +191,7 @@ class Filtration(Record):
                 self.edge_triangles,
                 threads,
                 progress,
+                births=births_of_rows(self.weights, vertices, vertex_radii, len(self.points)),
             )
             components = at_positions(components, vertices, len(self.points))
             known = vars(self)["_pairs"] = components, loops
@@ -184,7 +207,11 @@ AnyFiltration: TypeAlias = Filtration | Filtration3D
 
 
 def filtration(
-    points: Any, *, threads: int | None = None, progress: Progress | None = None
+    points: Any,
+    *,
+    weights: Any = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
 ) -> AnyFiltration:
     """Compute the alpha filtration of a cloud; every decision is exact.
 
@@ -192,6 +219,10 @@ def filtration(
     ----------
     points : array-like of shape (n, 2) or (n, 3)
         See :func:`alphamesh.points.as_cloud`. Duplicates are merged.
+    weights : array-like of shape (n,), optional
+        Squared radii of balls around the points, of any sign, in squared units of the
+        points: then the filtration is that of the weighted alpha complex. By default all
+        balls are of equal size.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
         on it.
@@ -207,6 +238,8 @@ def filtration(
     ------
     CloudShapeError, NonFiniteError, CoordinateRangeError, CloudTooLargeError
         If there is no exact filtration of such points; the message names the rows.
+    WeightsError
+        If there is not one finite weight for each point.
     ParameterError
         If `threads` or `progress` is not what it must be.
 
@@ -215,7 +248,7 @@ def filtration(
     GeographicCoordinatesWarning
         If the points come with a reference system of longitudes and latitudes.
     """
-    cloud = as_cloud(points)
+    cloud = as_cloud(points, weights=weights)
     if cloud.points.shape[1] == 3:
         return filtration_in_space(cloud, threads=threads, progress=progress)
     return filtration_in_plane(cloud, threads=threads, progress=progress)
@@ -227,6 +260,9 @@ def filtration_in_plane(
     """Compute the alpha filtration of a cloud in the plane; see :func:`filtration`."""
     cloud = as_cloud(points, 2)
     warn_of_degrees(cloud)
+    weight = 0.0 if cloud.weights is None else equal_weight(cloud.weights)
+    if weight is None:
+        return _weighted(cloud, threads, progress)
     try:
         result = _kernels.alpha2(cloud.points, threads, progress)
     except _kernels.BadCoordinates:
@@ -238,13 +274,39 @@ def filtration_in_plane(
     else:
         refuse_overflow(edges, edge_radii)
     representative, vertices = merged_rows(merged, len(cloud))
+    radii = read_only(np.zeros(len(vertices))), edge_radii, triangle_radii
+    vertex_radii, edge_radii, triangle_radii = (shifted_radii(r, weight) for r in radii)
     return Filtration(
         cloud.points,
         representative,
         (vertices.reshape(-1, 1), edges, triangles),
-        (read_only(np.zeros(len(vertices))), edge_radii, triangle_radii),
+        (vertex_radii, edge_radii, triangle_radii),
         edge_triangles,
         cloud.crs,
+        cloud.weights,
+    )
+
+
+def _weighted(cloud: Cloud, threads: int | None, progress: Progress | None) -> Filtration:
+    """Return the filtration of a cloud whose weights differ."""
+    assert cloud.weights is not None
+    try:
+        result = regular2(cloud.points, cloud.weights, threads, progress)
+    except _kernels.BadCoordinates:
+        raise coordinate_error(cloud.points, cloud.weights) from None
+    merged, hidden, (vertices, edges, triangles), radii, edge_triangles = result
+    refuse_overflow(edges, radii[1])
+    refuse_overflow(triangles, radii[2])
+    representative, _ = merged_rows(merged, len(cloud))
+    return Filtration(
+        cloud.points,
+        representative,
+        (read_only(vertices.reshape(-1, 1)), edges, triangles),
+        radii,
+        edge_triangles,
+        cloud.crs,
+        cloud.weights,
+        hidden,
     )
 
 

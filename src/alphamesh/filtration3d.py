@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +12,8 @@ from alphamesh import _kernels
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.space import alpha3, tetrahedron_triangles3, triangle_edges3
 from alphamesh._kernels.topology import persistence3
+from alphamesh._kernels.weighted import regular3
+from alphamesh._weights import equal_weight, nothing_hidden, shifted_radii
 from alphamesh.classify import (
     Intervals,
     face_intervals,
@@ -23,6 +25,7 @@ from alphamesh.measures import tetrahedron_volumes, triangle_areas
 from alphamesh.points import (
     as_cloud,
     at_positions,
+    births_of_rows,
     coordinate_error,
     merged_rows,
     refuse_overflow,
@@ -30,8 +33,11 @@ from alphamesh.points import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
+    from alphamesh.points import Cloud
 
 __all__ = ["Filtration3D", "filtration_in_space"]
 
@@ -43,22 +49,30 @@ class Filtration3D(Record):
     The filtration value of a simplex is the smallest radius at which it is in the alpha
     complex: the radius of its smallest circumscribed sphere if no point lies inside that
     sphere (a Gabriel simplex), else the least value among its cofaces [1]_. Values never
-    decrease from face to coface.
+    decrease from face to coface. With weights, they are those of the weighted complex, see
+    :class:`~alphamesh.Filtration`.
 
     Attributes
     ----------
     points : (n, 3) float64
     representative : (n,) int32
         The lowest row with the coordinates of row i: i itself unless it is a duplicate.
+        With weights, the lowest of the heaviest with these coordinates.
     simplices : tuple of (m_k, k + 1) int32
         Vertices, edges, triangles and tetrahedra, as rows of `points`, ascending within a
         simplex. The order of the simplices depends on the geometry alone.
     radii : tuple of (m_k,) float64
-        The filtration values of `simplices`, in the units of the points.
+        The filtration values of `simplices`, in the units of the points: those of vertices
+        are 0 unless there are weights, and none is negative.
     triangle_tetrahedra : (m_2, 2) int32
         The one or two tetrahedra that each triangle belongs to; -1 for none.
     crs : pyproj.CRS or None
         The coordinate reference system of the points, if they came with one.
+    weights : (n,) float64 or None
+        Squared radii of balls, of any sign; None for balls of equal size.
+    hidden : (h,) int32
+        Rows that are in no simplex because heavier points leave them no part of the power
+        diagram, ascending. Rows equal to one that is there are not hidden.
 
     All arrays are read-only. Four entries are always there, possibly empty: a cloud in
     one plane has no tetrahedra.
@@ -75,6 +89,8 @@ class Filtration3D(Record):
     radii: tuple[FloatArray, FloatArray, FloatArray, FloatArray]
     triangle_tetrahedra: IntArray
     crs: Any = None
+    weights: FloatArray | None = None
+    hidden: IntArray = field(default_factory=nothing_hidden)
 
     @property
     def dimension(self) -> int:
@@ -197,6 +213,9 @@ class Filtration3D(Record):
                 self.radii[3],
                 threads,
                 progress,
+                births=births_of_rows(
+                    self.weights, self.simplices[0], self.radii[0], len(self.points)
+                ),
             )
             components = at_positions(components, self.simplices[0], len(self.points))
             known = vars(self)["_pairs"] = components, loops, voids
@@ -228,22 +247,55 @@ def filtration_in_space(
     """
     cloud = as_cloud(points, 3)
     warn_of_degrees(cloud)
+    weight = 0.0 if cloud.weights is None else equal_weight(cloud.weights)
+    if weight is None:
+        return _weighted(cloud, threads, progress)
     try:
         result = alpha3(cloud.points, threads, progress)
     except _kernels.BadCoordinates:
         raise coordinate_error(cloud.points) from None
     merged, simplices, radii, triangle_tetrahedra = result
+    _refuse_overflow(simplices, radii)
+    representative, vertices = merged_rows(merged, len(cloud))
+    zero = read_only(np.zeros(len(vertices)))
+    zero, one, two, three = (shifted_radii(r, weight) for r in (zero, *radii))
+    return Filtration3D(
+        cloud.points,
+        representative,
+        (vertices.reshape(-1, 1), *simplices),
+        (zero, one, two, three),
+        triangle_tetrahedra,
+        cloud.crs,
+        cloud.weights,
+    )
+
+
+def _weighted(cloud: Cloud, threads: int | None, progress: Progress | None) -> Filtration3D:
+    """Return the filtration of a cloud whose weights differ."""
+    assert cloud.weights is not None
+    try:
+        result = regular3(cloud.points, cloud.weights, threads, progress)
+    except _kernels.BadCoordinates:
+        raise coordinate_error(cloud.points, cloud.weights) from None
+    merged, hidden, (vertices, *others), radii, triangle_tetrahedra = result
+    _refuse_overflow(others, radii[1:])
+    representative, _ = merged_rows(merged, len(cloud))
+    return Filtration3D(
+        cloud.points,
+        representative,
+        (read_only(vertices.reshape(-1, 1)), *result[2][1:]),
+        radii,
+        triangle_tetrahedra,
+        cloud.crs,
+        cloud.weights,
+        hidden,
+    )
+
+
+def _refuse_overflow(simplices: Sequence[IntArray], radii: Sequence[FloatArray]) -> None:
+    """Refuse values beyond float64, of edges, triangles and tetrahedra."""
     # No simplex has a larger value than the cells that it belongs to.
     for rows, values in zip(reversed(simplices), reversed(radii), strict=True):
         if len(rows):
             refuse_overflow(rows, values)
             break
-    representative, vertices = merged_rows(merged, len(cloud))
-    return Filtration3D(
-        cloud.points,
-        representative,
-        (vertices.reshape(-1, 1), *simplices),
-        (read_only(np.zeros(len(vertices))), *radii),
-        triangle_tetrahedra,
-        cloud.crs,
-    )

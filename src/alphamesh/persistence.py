@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
+from alphamesh._weights import signed_square
 from alphamesh.betti import StepCurve, alive_counts, checked_radii, steps_of
 from alphamesh.cycles import Rings, hole_rings
 from alphamesh.errors import DimensionError, ParameterError
@@ -35,7 +36,8 @@ class Persistence(Record):
     hole), one of dimension 2 a void. It is born when its creator joins the growing
     complex and dies when its destroyer does [1]_. Simplices of equal value join by
     dimension, then in their order in the filtration. Of two components that meet, the one
-    whose point has the lower row stays.
+    that was born first stays; where both were, as without weights all are, the one whose
+    point has the lower row.
 
     Attributes
     ----------
@@ -58,6 +60,11 @@ class Persistence(Record):
     filtration: AnyFiltration
     pairs: tuple[IntArray, IntArray, IntArray]
     essential: tuple[IntArray, IntArray, IntArray]
+
+    @property
+    def _signed(self) -> bool:
+        """Whether radii may be negative: if the points have weights."""
+        return self.filtration.weights is not None
 
     @property
     def _dimensions(self) -> range:
@@ -94,8 +101,9 @@ class Persistence(Record):
         dimension : int
             0 for components, 1 for loops, 2 for voids; there are none in the plane.
         squared : bool, default False
-            Give squared radii, the values of GUDHI's alpha complexes. What is too large
-            for float64 becomes infinite, what is too small zero.
+            Give squared radii, the values of GUDHI's alpha complexes: with weights, power
+            values, negative where the radius is. What is too large for float64 becomes
+            infinite, what is too small zero.
         zero_length : bool, default False
             Keep classes that die the moment they are born.
 
@@ -123,10 +131,7 @@ class Persistence(Record):
             )
         )
         rows = rows.take(np.lexsort((rows[:, 1], rows[:, 0])), axis=0)
-        if squared:
-            with np.errstate(over="ignore", under="ignore"):
-                np.square(rows, out=rows)
-        return rows
+        return signed_square(rows) if squared else rows
 
     def diagrams(
         self, *, squared: bool = False, zero_length: bool = False
@@ -147,7 +152,8 @@ class Persistence(Record):
         Parameters
         ----------
         radius : float or array of floats of any shape
-            Not negative; infinity gives the whole triangulation.
+            Not negative unless the points have weights; infinity gives the whole
+            triangulation.
 
         Returns
         -------
@@ -157,9 +163,9 @@ class Persistence(Record):
         Raises
         ------
         ParameterError
-            If a radius is not a number, negative or NaN.
+            If a radius is not a number, or NaN, or negative without weights.
         """
-        radii = checked_radii(radius)
+        radii = checked_radii(radius, signed=self._signed)
         numbers = np.stack(
             [alive_counts(*sorted_, radii) for sorted_ in self._sorted_lives], axis=-1
         )
@@ -171,10 +177,11 @@ class Persistence(Record):
         Returns
         -------
         StepCurve
-            ``radii``, (k,) float64, starts with 0, and ``values``, (k, 2) or (k, 3)
-            int64, holds :meth:`betti_numbers` from each radius up to the next.
+            ``radii``, (k,) float64, starts with 0, with weights where the first point
+            appears; and ``values``, (k, 2) or (k, 3) int64, holds :meth:`betti_numbers`
+            from each radius up to the next.
         """
-        return steps_of(self.betti_numbers, self._sorted_lives)
+        return steps_of(self.betti_numbers, self._sorted_lives, signed=self._signed)
 
     def euler_curve(self) -> StepCurve:
         """Return the Euler characteristic b0 - b1 + b2 as an exact step function.
@@ -182,10 +189,14 @@ class Persistence(Record):
         Returns
         -------
         StepCurve
-            ``radii``, (k,) float64, starts with 0, and ``values``, (k,) int64.
+            ``radii``, (k,) float64, as in :meth:`betti_curve`, and ``values``, (k,) int64.
         """
         signs = np.array([1, -1, 1], dtype=np.int64)[: len(self._dimensions)]
-        return steps_of(lambda radii: self.betti_numbers(radii) @ signs, self._sorted_lives)
+        return steps_of(
+            lambda radii: self.betti_numbers(radii) @ signs,
+            self._sorted_lives,
+            signed=self._signed,
+        )
 
     @cached_property
     def _sorted_lives(self) -> tuple[tuple[FloatArray, FloatArray], ...]:
@@ -220,10 +231,11 @@ class Persistence(Record):
         Raises
         ------
         ParameterError
-            If `radius` is negative or no number, or there is no such dimension.
+            If `radius` is no number, or negative without weights, or there is no such
+            dimension.
         """
         k = _checked_dimension(dimension)
-        value = float(checked_radii(radius).reshape(()))
+        value = float(checked_radii(radius, signed=self._signed).reshape(()))
         alive: BoolArray = (self.births[k] <= value) & (value < self.deaths[k])
         rows = np.flatnonzero(alive)
         latest_first = np.argsort(-self.deaths[k].take(rows), kind="stable")

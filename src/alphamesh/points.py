@@ -15,6 +15,7 @@ import numpy as np
 
 from alphamesh import _coercion, _geopoints
 from alphamesh._arrays import Record, read_only
+from alphamesh._weights import as_weights
 from alphamesh.errors import (
     CloudError,
     CoordinateRangeError,
@@ -32,6 +33,7 @@ __all__ = [
     "Cloud",
     "as_cloud",
     "at_positions",
+    "births_of_rows",
     "coordinate_error",
     "merged_rows",
     "refuse_overflow",
@@ -59,16 +61,20 @@ class Cloud(Record):
     crs : pyproj.CRS or None
         The coordinate reference system that came with the points; nothing is computed
         with it.
+    weights : (n,) float64 or None
+        Squared radii of the balls around the points, of any sign, in squared units of the
+        points; None for balls of equal size.
     """
 
     points: FloatArray
     crs: Any = None
+    weights: FloatArray | None = None
 
     def __len__(self) -> int:
         return len(self.points)
 
 
-def as_cloud(points: Any, dimension: int | None = None) -> Cloud:
+def as_cloud(points: Any, dimension: int | None = None, weights: Any = None) -> Cloud:
     """Return `points` as a cloud: a private copy, so that later changes do not reach it.
 
     Parameters
@@ -81,6 +87,9 @@ def as_cloud(points: Any, dimension: int | None = None) -> Cloud:
     dimension : {2, 3}, optional
         Take clouds of so many columns alone; by default, both. Of geometries, elevations
         are left out unless it is 3.
+    weights : array-like of shape (n,), optional
+        One finite number for each point; by default those of `points` if it is a Cloud,
+        else none.
 
     Returns
     -------
@@ -93,7 +102,17 @@ def as_cloud(points: Any, dimension: int | None = None) -> Cloud:
         text, missing values, complex numbers.
     CoordinateRangeError
         If a number cannot be held exactly, such as the integer ``2**53 + 1``.
+    WeightsError
+        If there is not one finite weight for each point; the message names the rows.
     """
+    cloud = _cloud(points, dimension)
+    if weights is None:
+        return cloud
+    return Cloud(cloud.points, cloud.crs, as_weights(weights, len(cloud)))
+
+
+def _cloud(points: Any, dimension: int | None) -> Cloud:
+    """Return `points` as a cloud, with the weights that they came with."""
     allowed = (2, 3) if dimension is None else (dimension,)
     if type(points) is np.ndarray and points.dtype == _FLOAT64:
         if points.ndim == 2 and points.shape[1] in allowed:
@@ -103,7 +122,7 @@ def as_cloud(points: Any, dimension: int | None = None) -> Cloud:
             return points
         points = points.points
     elif isinstance(points, PointTable):
-        return Cloud(as_cloud(points.points, dimension).points, points.crs)
+        return Cloud(_cloud(points.points, dimension).points, points.crs)
     elif isinstance(points, str | bytes | os.PathLike):
         raise _coercion.path_error(points)
     elif _geopoints.holds_geometries(points):
@@ -131,12 +150,14 @@ def warn_of_degrees(cloud: Cloud) -> None:
     )
 
 
-def coordinate_error(points: FloatArray) -> CloudError:
+def coordinate_error(points: FloatArray, weights: FloatArray | None = None) -> CloudError:
     """Return the error for a cloud that the core has refused: which rows, and what to do.
 
     Parameters
     ----------
     points : (n, 2) or (n, 3) float64
+    weights : (n,) float64, optional
+        Finite.
 
     Returns
     -------
@@ -149,7 +170,7 @@ def coordinate_error(points: FloatArray) -> CloudError:
             f"{len(points):,}; drop them with points[numpy.isfinite(points).all(axis=1)]",
             rows=rows[:6],
         )
-    return _range_error(points)
+    return _range_error(points) if weights is None else _weight_range_error(points, weights)
 
 
 def tiny_queries(points: FloatArray, queries: FloatArray) -> CoordinateRangeError:
@@ -208,6 +229,33 @@ def at_positions(pairs: IntArray, vertices: IntArray, count: int) -> IntArray:
     return read_only(moved)
 
 
+def births_of_rows(
+    weights: FloatArray | None, vertices: IntArray, radii: FloatArray, count: int
+) -> FloatArray | None:
+    """Return when each row of points joins the complex; None if all do at once, at 0.
+
+    Parameters
+    ----------
+    weights : (n,) float64 or None
+    vertices : (m, 1) int32
+        Rows of points.
+    radii : (m,) float64
+        Values of `vertices`.
+    count : int
+        How many points there are, hidden and all.
+
+    Returns
+    -------
+    (n,) float64 or None
+        Never, infinity, where a row is no vertex.
+    """
+    if weights is None:
+        return None
+    births = np.full(count, np.inf)
+    births[vertices[:, 0]] = radii
+    return read_only(births)
+
+
 _ROUND = {
     2: ("segment between", "far from one another"),
     3: ("circle through", "nearly on one line and far from one another"),
@@ -253,6 +301,47 @@ def _range_error(points: FloatArray) -> CoordinateRangeError:
         f"if they are noise, set them to zero: points[abs(points) < {safe:.3g}] = 0",
         rows=tiny[:6],
     )
+
+
+def _weight_range_error(points: FloatArray, weights: FloatArray) -> CoordinateRangeError:
+    """Name the weights that are too large or too small beside the points, or the points."""
+    digits = _EXPONENT_RANGES[points.shape[1]]
+    sizes, masses = np.abs(points), np.abs(weights)
+    top, bottom = _digits_used(sizes)
+    if top - bottom > digits:
+        return _range_error(points)
+    used = masses > 0
+    # A weight counts as a coordinate squared does: its digits are half as far from 1.
+    first, last = np.frexp(masses)[1], _last_digit(masses)
+    huge = np.flatnonzero(used & (first > 2 * (bottom + digits)))
+    if len(huge):
+        return CoordinateRangeError(
+            "weights too large beside the points for exact arithmetic in "
+            f"{rows_text(huge[:6], total=len(huge))} of {len(points):,}, up to "
+            f"{masses.max():.6g}; a weight is a squared radius, in squared units of the points",
+            rows=huge[:6],
+        )
+    top = max(top, (int(first.max(where=used, initial=2 * top)) + 1) // 2)
+    tiny = np.flatnonzero(used & (last < 2 * (top - digits)))
+    tiny = (
+        tiny if len(tiny) else np.flatnonzero(used & (last == last.min(where=used, initial=0)))
+    )
+    # Any number of at least this size has all of its 53 digits within the range.
+    safe = float(np.ldexp(1.0, 2 * (top - digits) + 53))
+    return CoordinateRangeError(
+        "weights too small beside the points or beside one another for exact arithmetic in "
+        f"{rows_text(tiny[:6], total=len(tiny))} of {len(points):,}; set them to zero: "
+        f"weights[abs(weights) < {safe:.3g}] = 0",
+        rows=tiny[:6],
+    )
+
+
+def _digits_used(magnitudes: FloatArray) -> tuple[int, int]:
+    """Return the exponents of the first and of the last binary digit of some numbers."""
+    used = magnitudes[magnitudes > 0]
+    if len(used) == 0:
+        return 0, 0
+    return int(np.frexp(used.max())[1]), int(_last_digit(used).min())
 
 
 def _last_digit(magnitudes: FloatArray) -> np.ndarray[Any, np.dtype[np.int64]]:

@@ -28,13 +28,13 @@ class AlphaShape3D(SolidShape):
     ----------
     filtration : Filtration3D
     radius : float
-        Not negative, in the units of the points. ``numpy.inf`` gives the whole Delaunay
-        triangulation.
+        In the units of the points, not negative unless these have weights.
+        ``numpy.inf`` gives the whole triangulation.
 
     Raises
     ------
     ParameterError
-        If `radius` is not a number, negative or NaN.
+        If `radius` is not a number, or NaN, or negative without weights.
 
     Notes
     -----
@@ -44,7 +44,8 @@ class AlphaShape3D(SolidShape):
     """
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", checked_radius(self.radius))
+        signed = self.filtration.weights is not None
+        object.__setattr__(self, "radius", checked_radius(self.radius, signed=signed))
 
     @cached_property
     def _vertex_kinds(self) -> KindArray:
@@ -81,7 +82,9 @@ class AlphaShape3D(SolidShape):
     @cached_property
     def isolated_vertices(self) -> IntArray:
         """Vertices without any edge, ``(k,)`` int32."""
-        return chosen(self._vertices, ~reached(self.filtration.joined_from, self.radius))
+        alone = reached(self.filtration.radii[0], self.radius)
+        alone &= ~reached(self.filtration.joined_from, self.radius)
+        return chosen(self._vertices, alone)
 
     def _repr_html_(self) -> str:
         """Return what notebooks show: a small picture and the facts."""

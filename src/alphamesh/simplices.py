@@ -217,7 +217,8 @@ class SimplexSet(Record):
         """
         from alphamesh.io.meshes import Mesh, vertex_data
 
-        _, edge_radii, triangle_radii = self.filtration.radii
+        vertex_radii, edge_radii, triangle_radii = self.filtration.radii
+        alone = np.searchsorted(self._vertices, self.isolated_vertices)
         return Mesh(
             self.points,
             {
@@ -228,7 +229,7 @@ class SimplexSet(Record):
             point_data=vertex_data(point_data, len(self.points)),
             cell_data={
                 "radius": {
-                    "vertex": np.zeros(len(self.isolated_vertices)),
+                    "vertex": vertex_radii.take(alone),
                     "line": edge_radii.compress(self._edge_kinds == SimplexKind.SINGULAR),
                     "triangle": triangle_radii.compress(self._has_triangle),
                 }

@@ -272,7 +272,8 @@ class SimplexSet3D(Record):
         """
         from alphamesh.io.meshes import Mesh, vertex_data
 
-        _, edge_radii, triangle_radii, tetrahedron_radii = self.filtration.radii
+        vertex_radii, edge_radii, triangle_radii, tetrahedron_radii = self.filtration.radii
+        alone = np.searchsorted(self._vertices, self.isolated_vertices)
         kinds = self._triangle_kinds
         triangles = self.singular_triangles
         radii = triangle_radii.compress(kinds == SimplexKind.SINGULAR)
@@ -281,7 +282,7 @@ class SimplexSet3D(Record):
             regular = triangle_radii.compress(kinds == SimplexKind.REGULAR)
             radii = np.concatenate((regular, radii))
         cells = {
-            "vertex": (self.isolated_vertices, np.zeros(len(self.isolated_vertices))),
+            "vertex": (self.isolated_vertices, vertex_radii.take(alone)),
             "line": (self.isolated_edges, edge_radii.compress(self._isolated_edge)),
             "triangle": (triangles, radii),
         }
