@@ -95,6 +95,7 @@ SpatialOrder<Sheet> sheet_of(const SpatialOrder3& order, const std::vector<std::
   SpatialOrder<Sheet> sheet;
   sheet.size = n;
   sheet.points = Buffer<SheetPoint>(n);
+  sheet.weight = Buffer<double>(order.weight.size());
   sheet.row = std::move(plane.row);
   sheet.key = std::move(plane.key);
   sheet.exponent = order.exponent;
@@ -104,6 +105,7 @@ SpatialOrder<Sheet> sheet_of(const SpatialOrder3& order, const std::vector<std::
     const Point2 p = plane.points[i];
     sheet.points[i] = {p.x, p.y, coordinate(order.points[from], axes.dropped)};
     sheet.row[i] = order.row[from];
+    if (sheet.weight.size() != 0) sheet.weight[i] = order.weight[from];
   }
   return sheet;
 }

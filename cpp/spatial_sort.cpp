@@ -119,24 +119,67 @@ struct Range {
   int unit = kNoUnit;  // exponent of the lattice, if there is one
 };
 
+constexpr int kNothing = std::numeric_limits<int>::min();  // the top of zeros
+
+int half_up(int e) { return e == kNothing ? e : (e + (e & 1)) / 2; }
+int half_down(int e) { return e == kNoUnit ? e : (e - (e & 1)) / 2; }
+
+// Weights, if there are any, by the exponents of their roots.
+struct Weights {
+  const double* v = nullptr;
+  std::size_t n = 0;
+  int top = kNothing;
+  double tiny = HUGE_VAL;  // least nonzero magnitude
+
+  Weights() = default;
+  Weights(const double* weight, std::size_t count) : v(weight), n(weight == nullptr ? 0 : count) {
+    double check = 0.0, most = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      check += v[i] - v[i];
+      const double m = std::fabs(v[i]), some = v[i] == 0.0 ? HUGE_VAL : m;
+      most = m > most ? m : most;
+      tiny = some < tiny ? some : tiny;
+    }
+    if (check != 0.0) throw BadCoordinates("a weight is NaN or infinite");
+    if (most > 0.0) top = half_up(std::ilogb(most) + 1);
+  }
+  int unit(int enough, Job& job) const {
+    return n == 0 ? kNoUnit : half_down(common_unit(v, n, 2 * enough, job));
+  }
+  int bottom() const {  // a lower bound
+    return tiny == HUGE_VAL ? kNoUnit : half_down(std::ilogb(tiny) - kMantissa);
+  }
+};
+
 template <class S>
-Range range_of(const double* v, std::size_t n, const Extent<S>& extent, Job& job) {
+Range range_of(const double* v, std::size_t n, const Extent<S>& extent, Job& job,
+               const Weights& weights = {}) {
   Range range;
   if (!extent.finite) throw BadCoordinates("a coordinate is NaN or infinite");
   const double magnitude = extent.magnitude();
-  if (magnitude == 0.0) return range;
+  const int top = std::max(magnitude == 0.0 ? kNothing : std::ilogb(magnitude) + 1, weights.top);
+  if (top == kNothing) return range;
+  const int highest = weights.n == 0 ? S::kTop : S::kWeightedTop;
+  const int lowest = weights.n == 0 ? S::kBottom : S::kWeightedBottom;
   const std::size_t count = S::kDim * n;
-  const int top = std::ilogb(magnitude) + 1;
+  auto unit_of_all = [&](int enough) {
+    const int unit = common_unit(v, count, enough, job);
+    return unit <= enough ? unit : std::min(unit, weights.unit(enough, job));
+  };
   const int lattice_limit = top - kLatticeBits;  // finer than this, it would not help
-  const int unit = common_unit(v, count, lattice_limit, job);
+  const int unit = unit_of_all(lattice_limit);
   if (unit > lattice_limit) range.unit = unit;
   // A lower bound of the last bit; the last bit itself only where the bound is too low.
-  int bottom = unit > lattice_limit ? unit : std::ilogb(extent.tiny) - kMantissa;
-  if (top > S::kTop || bottom < S::kBottom) {
-    const int least = top - (S::kTop - S::kBottom);
-    if (bottom < least) bottom = common_unit(v, count, least - 1, job);
+  int bottom = unit;
+  if (unit <= lattice_limit) {
+    bottom = magnitude == 0.0 ? kNoUnit : std::ilogb(extent.tiny) - kMantissa;
+    bottom = std::min(bottom, weights.bottom());
+  }
+  if (top > highest || bottom < lowest) {
+    const int least = top - (highest - lowest);
+    if (bottom < least) bottom = unit_of_all(least - 1);
     if (bottom < least) throw BadCoordinates("the range of exponents is too wide");
-    if (top > S::kTop || bottom < S::kBottom) range.exponent = S::kTop - top;
+    if (top > highest || bottom < lowest) range.exponent = highest - top;
   }
   return range;
 }
@@ -182,9 +225,11 @@ struct Entry {
 };
 
 // Points that share a coarse cell: a finer grid of their own if they are many, and
-// lexicographic order within a cell of that. Ties end in the order of the rows.
+// lexicographic order within a cell of that. Ties end in the order of the weights, the
+// heaviest first, and then of the rows.
 template <class S>
-void sort_run(SpatialOrder<S>& o, std::size_t begin, std::size_t end, std::vector<Entry<S>>& run) {
+void sort_run(SpatialOrder<S>& o, std::size_t begin, std::size_t end, const double* weight,
+              std::vector<Entry<S>>& run) {
   run.clear();
   Extent<S> box;
   for (std::size_t i = begin; i < end; ++i) {
@@ -195,9 +240,10 @@ void sort_run(SpatialOrder<S>& o, std::size_t begin, std::size_t end, std::vecto
     const Grid<S> grid(box.lo, box.hi, S::kBits);
     for (Entry<S>& e : run) e.key = grid.code(&e.p.x);
   }
-  std::sort(run.begin(), run.end(), [](const Entry<S>& a, const Entry<S>& b) {
+  std::sort(run.begin(), run.end(), [weight](const Entry<S>& a, const Entry<S>& b) {
     if (a.key != b.key) return a.key < b.key;
     if (!(a.p == b.p)) return a.p < b.p;
+    if (weight != nullptr && weight[a.row] != weight[b.row]) return weight[a.row] > weight[b.row];
     return a.row < b.row;
   });
   for (std::size_t i = begin; i < end; ++i) {
@@ -211,7 +257,7 @@ void sort_run(SpatialOrder<S>& o, std::size_t begin, std::size_t end, std::vecto
 // Fetches the points in sorted order and settles runs of equal keys. Returns whether
 // there are duplicates. A run belongs to the part in which it begins.
 template <class S>
-bool gather(SpatialOrder<S>& o, const double* v, Job& job) {
+bool gather(SpatialOrder<S>& o, const double* v, const double* weight, Job& job) {
   const std::size_t n = o.size;
   const Parts parts(n, job);
   const PowerOfTwo factor(o.exponent);
@@ -240,7 +286,7 @@ bool gather(SpatialOrder<S>& o, const double* v, Job& job) {
       j = i + 1;
       while (j < start[part + 1] && o.key[j] == o.key[i]) ++j;
       if (j > i + 1) {
-        sort_run(o, i, j, run);
+        sort_run(o, i, j, weight, run);
         for (std::size_t k = i + 1; k < j; ++k) found = found || o.points[k] == o.points[k - 1];
       }
     }
@@ -309,12 +355,12 @@ int range_exponent(const double* v, std::size_t n, Job& job) {
 namespace {
 
 template <class S>
-SpatialOrder<S> build(const double* v, std::size_t n, Job& job) {
+SpatialOrder<S> build(const double* v, std::size_t n, const double* weight, Job& job) {
   SpatialOrder<S> o;
   o.size = n;
   if (n == 0) return o;
   const Extent<S> extent = extent_of<S>(v, n, job);
-  const Range range = range_of<S>(v, n, extent, job);
+  const Range range = range_of<S>(v, n, extent, job, Weights(weight, n));
   o.exponent = range.exponent;
   if (range.unit != kNoUnit) {
     o.lattice = typename S::Ties(std::ldexp(1.0, range.unit + range.exponent));
@@ -340,19 +386,23 @@ SpatialOrder<S> build(const double* v, std::size_t n, Job& job) {
   radix_sort(o.key, S::kDim * bits, job);
   o.points = Buffer<typename S::Point>(n);
   o.row = Buffer<std::int32_t>(n);
-  if (gather(o, v, job)) merge_duplicates(o);
+  if (gather(o, v, weight, job)) merge_duplicates(o);
+  if (weight != nullptr) {
+    o.weight = Buffer<double>(o.size);
+    for (std::size_t i = 0; i < o.size; ++i) o.weight[i] = factor * (factor * weight[o.row[i]]);
+  }
   return o;
 }
 
 }  // namespace
 
 template <class S>
-SpatialOrder<S> spatial_order(const double* v, std::size_t n, Job& job) {
-  return build<S>(v, n, job);
+SpatialOrder<S> spatial_order(const double* v, std::size_t n, Job& job, const double* weight) {
+  return build<S>(v, n, weight, job);
 }
 
-template SpatialOrder<Plane> spatial_order<Plane>(const double*, std::size_t, Job&);
-template SpatialOrder<Space> spatial_order<Space>(const double*, std::size_t, Job&);
+template SpatialOrder<Plane> spatial_order<Plane>(const double*, std::size_t, Job&, const double*);
+template SpatialOrder<Space> spatial_order<Space>(const double*, std::size_t, Job&, const double*);
 template int range_exponent<Plane>(const double*, std::size_t, Job&);
 template int range_exponent<Space>(const double*, std::size_t, Job&);
 

@@ -20,11 +20,14 @@ struct BadCoordinates : std::invalid_argument {
 
 // What differs between the plane and space. No product of the predicates leaves the range
 // of doubles, nor loses a bit at its lower end, if coordinates stay below 2^kTop and are
-// multiples of 2^kBottom. Codes of a cell have kDim kBits bits, 32 at most.
+// multiples of 2^kBottom. Weights are squares: with them, products are longer, the limits
+// closer, and hold for coordinates and for roots of weights. Codes of a cell have kDim kBits
+// bits, 32 at most.
 struct Plane {
   using Point = Point2;
   using Ties = Lattice;
   static constexpr int kDim = 2, kTop = 250, kBottom = -240, kBits = 16;
+  static constexpr int kWeightedTop = 165, kWeightedBottom = -160;
   static std::uint32_t code(const std::uint32_t* cell, int bits);  // Morton: serves as cuts
   static Point point(const double* v) { return {v[0], v[1]}; }
 };
@@ -33,6 +36,7 @@ struct Space {
   using Point = Point3;
   using Ties = Lattice3;
   static constexpr int kDim = 3, kTop = 165, kBottom = -160, kBits = 10;
+  static constexpr int kWeightedTop = 165, kWeightedBottom = -160;
   static std::uint32_t code(const std::uint32_t* cell, int bits);  // Hilbert
   static Point point(const double* v) { return {v[0], v[1], v[2]}; }
 };
@@ -47,7 +51,8 @@ template <class S>
 struct SpatialOrder {
   std::size_t size = 0;                 // number of distinct points
   Buffer<typename S::Point> points;     // scaled by 2^exponent
-  Buffer<std::int32_t> row;             // lowest input row of each point
+  Buffer<double> weight;                // scaled by 4^exponent; empty if there are none
+  Buffer<std::int32_t> row;             // input row of each point: the heaviest, then lowest one
   Buffer<std::uint64_t> key;            // two codes, coarse and fine; ascending
   Buffer<std::int32_t> representative;  // per input row; empty if all are distinct
   int exponent = 0;
@@ -57,9 +62,11 @@ struct SpatialOrder {
 using SpatialOrder2 = SpatialOrder<Plane>;
 using SpatialOrder3 = SpatialOrder<Space>;
 
-// `v` holds n rows of S::kDim coordinates.
+// `v` holds n rows of S::kDim coordinates, `weight` a number for each row, if anything. The
+// lattice is one of the weights, too: they are multiples of its squared unit.
 template <class S>
-SpatialOrder<S> spatial_order(const double* v, std::size_t n, Job& job);
+SpatialOrder<S> spatial_order(const double* v, std::size_t n, Job& job,
+                              const double* weight = nullptr);
 
 // Exponent of the power of two that brings a few points into range; nearly always 0.
 template <class S>
