@@ -139,6 +139,7 @@ inline nb::object points_array(Buffer<Point2>&& buffer) {
 void bind_incidence3(nb::module_& m);
 void bind_outlines2(nb::module_& m);
 void bind_persistence3(nb::module_& m);
+void bind_regular2(nb::module_& m);
 void bind_space3(nb::module_& m);
 void bind_surface3(nb::module_& m);
 void bind_voronoi2(nb::module_& m);

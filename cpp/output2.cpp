@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "power_values2.hpp"
 #include "sheet.hpp"
 #include "values2.hpp"
 
@@ -44,38 +45,76 @@ std::vector<std::size_t> number_parts(const Mesh2& mesh, const Parts& parts) {
 }
 
 // Calls use(t, id) for each triangle of a part; ghosts get the id -1. Ids are kept in
-// the spare slot 8t + 3. Returns the number of edges that the part writes.
+// the spare slot 8t + 3; 8t + 7 is for what tells which edges are attached, `none` for now.
+// Returns the number of edges that the part writes.
 template <class Use>
 std::size_t number_triangles(Mesh2& mesh, const Parts& parts, std::size_t part, std::size_t first,
-                             Use&& use) {
+                             Id none, Use&& use) {
   auto id = static_cast<Id>(first);
   std::size_t edges = 0;
   Id owned[3];
   for (std::size_t t = parts.begin(part); t < parts.end(part); ++t) {
     const bool ghost = mesh.is_ghost(static_cast<Id>(8 * t));
     mesh.slot[8 * t + 3] = ghost ? -1 : id;
-    mesh.slot[8 * t + 7] = TriangleBlock::kNoEdge;
+    mesh.slot[8 * t + 7] = none;
     edges += static_cast<std::size_t>(owned_edges(mesh, t, owned));
     if (!ghost) use(t, static_cast<std::size_t>(id++));
   }
   return edges;
 }
 
-// What evaluates triangles and edges.
+// What evaluates triangles and edges, and how triangles tell that edge k is attached: without
+// weights, it is the one opposite to the obtuse angle.
 template <class S>
 struct Blocks;
 
+struct PlainBlocks {
+  static constexpr Id kNone = TriangleBlock::kNoEdge;
+  static bool attached(Id code, Id k) { return code == k; }
+  template <class Triangles>
+  static Id code(const Triangles& block, std::size_t i) {
+    return block.obtuse[i];
+  }
+  template <class Edges>
+  static double radius(const Edges& block, std::size_t i) {
+    return block.half_length[i];
+  }
+  template <class Edges>
+  static void measure(Edges& block, std::size_t count, const Lattice&) {
+    block.measure(count);
+  }
+};
+
 template <>
-struct Blocks<Plane> {
+struct Blocks<Plane> : PlainBlocks {
   using Triangles = TriangleBlock;
   using Edges = EdgeBlock;
 };
 
 template <>
-struct Blocks<Sheet> {
+struct Blocks<Sheet> : PlainBlocks {
   using Triangles = SheetTriangles;
   using Edges = SheetEdges;
 };
+
+template <class P>
+struct PowerBlocks {
+  using Triangles = PowerTriangles<P>;
+  using Edges = PowerEdges<P>;
+  static constexpr Id kNone = 0;
+  static bool attached(Id code, Id k) { return ((code >> k) & 1) != 0; }
+  static Id code(const Triangles& block, std::size_t i) { return block.attached[i]; }
+  static double radius(const Edges& block, std::size_t i) { return block.radius[i]; }
+  static void measure(Edges& block, std::size_t count, const Lattice& lattice) {
+    block.measure(count, lattice);
+  }
+};
+
+template <>
+struct Blocks<WeightedPlane> : PowerBlocks<Point2> {};
+
+template <>
+struct Blocks<WeightedSheet> : PowerBlocks<SheetPoint> {};
 
 // Turns counts (count[i + 1] of part i) into first rows.
 void accumulate(std::vector<std::size_t>& count) {
@@ -111,21 +150,21 @@ std::vector<std::size_t> write_triangles(const SpatialOrder<S>& order, Mesh2& me
       block.measure(order.lattice, order.exponent);
       for (std::size_t i = 0; i < block.count; ++i) {
         out.triangle_radii[written + i] = block.radius[i];
-        mesh.slot[slot[i] + 7] = block.obtuse[i];
+        mesh.slot[slot[i] + 7] = Blocks<S>::code(block, i);
       }
       written += block.count;
       block.count = 0;
     };
-    edges[part + 1] =
-        number_triangles(mesh, parts, part, first[part], [&](std::size_t t, std::size_t id) {
-          const Id* v = &mesh.slot[8 * t];
-          slot[block.count] = 8 * t;
-          block.push(p[v[0]], p[v[1]], p[v[2]]);
-          if (block.count == TriangleBlock::kSize) flush();
-          Id* to = &out.triangles[3 * id];
-          for (int i = 0; i < 3; ++i) to[i] = row[v[i]];
-          sort3(to);
-        });
+    auto use = [&](std::size_t t, std::size_t id) {
+      const Id* v = &mesh.slot[8 * t];
+      slot[block.count] = 8 * t;
+      block.push(p[v[0]], p[v[1]], p[v[2]]);
+      if (block.count == TriangleBlock::kSize) flush();
+      Id* to = &out.triangles[3 * id];
+      for (int i = 0; i < 3; ++i) to[i] = row[v[i]];
+      sort3(to);
+    };
+    edges[part + 1] = number_triangles(mesh, parts, part, first[part], Blocks<S>::kNone, use);
     flush();
     job.advance(0.15 / static_cast<double>(parts.count()));
   });
@@ -141,6 +180,7 @@ class EdgeWriter {
       : p_(order.points.data()),
         row_(order.row.data()),
         m_(mesh.slot.data()),
+        lattice_(order.lattice),
         unscale_(-order.exponent),
         out_(out) {}
 
@@ -148,19 +188,21 @@ class EdgeWriter {
     for (std::size_t i = 0; i < count; ++i) {
       block_.set(i, p_[m_[h[i]]], p_[m_[m_[h[i] + 4]]]);
     }
-    block_.measure(count);
-    for (std::size_t i = 0; i < count; ++i)
-      write_one(h[i], e + i, unscale_ * block_.half_length[i]);
+    Blocks<S>::measure(block_, count, lattice_);
+    for (std::size_t i = 0; i < count; ++i) {
+      write_one(h[i], e + i, unscale_ * Blocks<S>::radius(block_, i));
+    }
   }
 
  private:
-  void write_one(Id h, std::size_t e, double half_length) {
+  void write_one(Id h, std::size_t e, double radius) {
     const Id g = m_[h + 4], base = Mesh2::base(h), other = Mesh2::base(g);
     const Id here = m_[base + 3], there = m_[other + 3];
     const double* radii = out_.triangle_radii.data();
-    const bool attached = (m_[base + 7] == (h & 3)) | (m_[other + 7] == (g & 3));
+    const bool attached =
+        Blocks<S>::attached(m_[base + 7], h & 3) | Blocks<S>::attached(m_[other + 7], g & 3);
     const double enter = std::min(here < 0 ? kInf : radii[here], there < 0 ? kInf : radii[there]);
-    const double value[2] = {half_length, enter};
+    const double value[2] = {std::min(radius, enter), enter};  // however they were rounded
     out_.edge_radii[e] = value[attached];
     write_edge(row_, m_[h], m_[g], &out_.edges[2 * e]);
     out_.edge_triangles[2 * e] = here < 0 ? there : here;
@@ -170,6 +212,7 @@ class EdgeWriter {
   const typename S::Point* p_;
   const Id* row_;
   const Id* m_;
+  Lattice lattice_;
   PowerOfTwo unscale_;
   Filtration2& out_;
   typename Blocks<S>::Edges block_;
@@ -204,7 +247,7 @@ Filtration2 filtration2(const SpatialOrder<S>& order, Mesh2& mesh, Job& job) {
   const Parts parts(mesh.triangles, job);
   const std::vector<std::size_t> first = number_parts(mesh, parts);
   const std::size_t triangles = first.back();
-  const std::size_t edges = triangles + order.size - 1;  // Euler
+  const std::size_t edges = triangles + mesh.triangles / 2;  // Euler
   out.triangles = Buffer<Id>(3 * triangles);
   out.triangle_radii = Buffer<double>(triangles);
   const std::vector<std::size_t> first_edge = write_triangles(order, mesh, parts, first, out, job);
@@ -217,6 +260,8 @@ Filtration2 filtration2(const SpatialOrder<S>& order, Mesh2& mesh, Job& job) {
 
 template Filtration2 filtration2<Plane>(const SpatialOrder2&, Mesh2&, Job&);
 template Filtration2 filtration2<Sheet>(const SpatialOrder<Sheet>&, Mesh2&, Job&);
+template Filtration2 filtration2<WeightedPlane>(const SpatialOrder<WeightedPlane>&, Mesh2&, Job&);
+template Filtration2 filtration2<WeightedSheet>(const SpatialOrder<WeightedSheet>&, Mesh2&, Job&);
 
 Triangulation2 triangulation2(const SpatialOrder2& order, Mesh2& mesh, Job& job) {
   Triangulation2 out;
@@ -239,7 +284,7 @@ Triangulation2 triangulation2(const SpatialOrder2& order, Mesh2& mesh, Job& job)
   out.triangles = Buffer<Id>(3 * triangles);
   out.neighbors = Buffer<Id>(3 * triangles);
   job.run(parts.count(), [&](std::size_t part) {
-    number_triangles(mesh, parts, part, first[part], [](std::size_t, std::size_t) {});
+    number_triangles(mesh, parts, part, first[part], 0, [](std::size_t, std::size_t) {});
   });
   job.run(parts.count(), [&](std::size_t part) {
     for (std::size_t t = parts.begin(part); t < parts.end(part); ++t) {

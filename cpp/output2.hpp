@@ -31,7 +31,7 @@ Triangulation2 triangulation2(const SpatialOrder2& order, Mesh2& mesh, Job& job)
 // The alpha filtration (Edelsbrunner, Kirkpatrick & Seidel 1983; Edelsbrunner & Muecke
 // 1994): a triangle enters with its circumradius, an edge with half its length if no
 // apex lies inside the circle on it (Gabriel), else with its first triangle. S as in
-// delaunay2().
+// delaunay2() or, for power values in their place, in regular2().
 template <class S>
 Filtration2 filtration2(const SpatialOrder<S>& order, Mesh2& mesh, Job& job);
 

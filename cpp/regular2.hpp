@@ -25,11 +25,16 @@ struct RegularFiltration2 {
   Buffer<std::int32_t> hidden;    // (h,), ascending: points with an empty power cell
 };
 
-// `order` has weights. S is Plane, or Sheet for a plane or line in space. `weight` and n are
-// those of the input's rows.
+// A weighted cloud as it came: n rows. `representative` is null if all points are distinct.
+struct WeightedRows {
+  const double* weight;
+  const std::int32_t* representative;
+  std::size_t n;
+};
+
+// `order` has weights. S is Plane, or Sheet for a plane or line in space.
 template <class S>
-RegularFiltration2 regular_filtration2(SpatialOrder<S>&& order, const double* weight, std::size_t n,
-                                       Job& job);
+RegularFiltration2 regular_filtration2(SpatialOrder<S>&& order, const WeightedRows& rows, Job& job);
 
 // The triangulation itself: Bowyer 1981 and Watson 1981 with power tests, in rounds along the
 // curve as in delaunay3(), in parallel likewise. Points above the lower hull of the lifted

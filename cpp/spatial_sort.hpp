@@ -72,11 +72,13 @@ SpatialOrder<S> spatial_order(const double* v, std::size_t n, Job& job,
 template <class S>
 int range_exponent(const double* v, std::size_t n, Job& job);
 
-inline SpatialOrder2 spatial_order2(const double* v, std::size_t n, Job& job) {
-  return spatial_order<Plane>(v, n, job);
+inline SpatialOrder2 spatial_order2(const double* v, std::size_t n, Job& job,
+                                    const double* weight = nullptr) {
+  return spatial_order<Plane>(v, n, job, weight);
 }
-inline SpatialOrder3 spatial_order3(const double* v, std::size_t n, Job& job) {
-  return spatial_order<Space>(v, n, job);
+inline SpatialOrder3 spatial_order3(const double* v, std::size_t n, Job& job,
+                                    const double* weight = nullptr) {
+  return spatial_order<Space>(v, n, job, weight);
 }
 
 }  // namespace alphamesh
