@@ -3,32 +3,16 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <vector>
 
+#include "common_unit.hpp"
 #include "radix_sort.hpp"
 
 namespace alphamesh {
 namespace {
 
-constexpr int kMantissa = 52;
 constexpr int kLatticeBits = 40;
-constexpr int kNoUnit = std::numeric_limits<int>::max();  // all coordinates are zero
-
-// Exponent of the least significant bit that is set.
-int unit_exponent(double v) {
-  if (v == 0.0) return kNoUnit;
-  int e;
-  const double m = std::frexp(std::fabs(v), &e);  // v = m 2^e, m in [1/2, 1)
-  auto digits = static_cast<std::uint64_t>(std::ldexp(m, kMantissa + 1));
-  e -= kMantissa + 1;
-  while ((digits & 1u) == 0) {
-    digits >>= 1;
-    ++e;
-  }
-  return e;
-}
 
 template <class S>
 struct Extent {
@@ -82,36 +66,6 @@ Extent<S> extent_of(const double* xy, std::size_t n, Job& job) {
   Extent<S> all;
   for (const Extent<S>& e : found) all.add(e);
   return all;
-}
-
-// The least exponent of a unit that all numbers are multiples of; the search stops once
-// it is `enough` or less.
-int common_unit(const double* v, std::size_t n, int enough) {
-  constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
-  int unit = kNoUnit;
-  double inverse = 0.0, limit = 0.0;
-  for (std::size_t i = 0; i < n && unit > enough; ++i) {
-    // Testing against the unit found so far is cheap, and true for nearly all.
-    const double q = v[i] * inverse;
-    const bool whole = (q + kRound) - kRound == q && (q != 0.0 || v[i] == 0.0);  // no underflow
-    if (std::fabs(q) < limit && whole) continue;
-    const int found = unit_exponent(v[i]);
-    if (found >= unit) continue;
-    unit = found;
-    const bool usable = std::abs(unit) < 1000;
-    inverse = usable ? std::ldexp(1.0, -unit) : 0.0;
-    limit = usable ? 0x1p51 : 0.0;
-  }
-  return unit;
-}
-
-int common_unit(const double* v, std::size_t n, int enough, Job& job) {
-  const Parts parts(n, job);
-  std::vector<int> found(parts.count());
-  job.run(parts.count(), [&](std::size_t i) {
-    found[i] = common_unit(v + parts.begin(i), parts.end(i) - parts.begin(i), enough);
-  });
-  return *std::min_element(found.begin(), found.end());
 }
 
 struct Range {

@@ -184,3 +184,9 @@ def relative_error(radius: float, power: Fraction) -> float:
     if ratio <= 0:
         return math.inf
     return float(abs(ratio - 1)) / (1 + math.sqrt(ratio))
+
+
+def within_a_subnormal(radius: float, power: Fraction) -> bool:
+    """Tell whether no float is nearer to the signed root than the smallest one there is."""
+    low, high = Fraction(radius) - Fraction(5e-324), Fraction(radius) + Fraction(5e-324)
+    return low * abs(low) <= power <= high * abs(high)
