@@ -24,6 +24,33 @@ class Big {
     return a.times(b, 0, b.terms_.size());
   }
 
+  // The same in as few terms as there are: Shewchuk's COMPRESS.
+  Big compressed() const {
+    if (terms_.empty()) return {};
+    std::vector<double> upper;  // largest first
+    double carry = terms_.back();
+    for (std::size_t i = terms_.size() - 1; i-- > 0;) {
+      const Dd s = two_sum(carry, terms_[i]);
+      if (s.l != 0.0) upper.push_back(s.h);
+      carry = s.l != 0.0 ? s.l : s.h;
+    }
+    Big out;
+    while (!upper.empty()) {
+      const Dd s = two_sum(upper.back(), carry);
+      upper.pop_back();
+      out.push(s.l);
+      carry = s.h;
+    }
+    out.push(carry);
+    return out;
+  }
+  // Times 2^e; what falls below the range of doubles is lost.
+  Big scaled_by_power(int e) const {
+    Big out;
+    for (const double t : terms_) out.push(std::ldexp(t, e));
+    return out;
+  }
+
   double estimate() const {
     double s = 0.0;
     for (const double t : terms_) s += t;

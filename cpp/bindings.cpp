@@ -154,6 +154,7 @@ NB_MODULE(_core, m) {
   bind_outlines2(m);
   bind_persistence3(m);
   bind_regular2(m);
+  bind_regular3(m);
   bind_space3(m);
   bind_surface3(m);
   bind_voronoi2(m);

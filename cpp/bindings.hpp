@@ -140,6 +140,7 @@ void bind_incidence3(nb::module_& m);
 void bind_outlines2(nb::module_& m);
 void bind_persistence3(nb::module_& m);
 void bind_regular2(nb::module_& m);
+void bind_regular3(nb::module_& m);
 void bind_space3(nb::module_& m);
 void bind_surface3(nb::module_& m);
 void bind_voronoi2(nb::module_& m);

@@ -15,7 +15,8 @@ namespace {
 using Id = std::int32_t;
 
 // One tetrahedron and a ghost on each of its facets.
-void make_first(Store& store, Worker& worker, const std::vector<Id>& v) {
+template <class Cloud>
+void make_first(Store<Cloud>& store, Worker<Cloud>& worker, const std::vector<Id>& v) {
   Id made[5];
   if (!worker.provide(5)) throw std::bad_alloc();
   for (Id& t : made) t = worker.new_slot();
@@ -39,27 +40,26 @@ void make_first(Store& store, Worker& worker, const std::vector<Id>& v) {
   }
   for (const Id t : made) {
     const Tetrahedron& row = slot(t);
-    const Point3 p = store.p[row.vertex[0]];
-    Arm arm[3];
+    const typename Cloud::Point p = store.cloud.point(row.vertex[0]);
+    typename Cloud::Arm arm[3];
     for (int k = 0; k < 3; ++k) {
       const Id u = row.vertex[k + 1];
-      arm[k] = {0.0, 0.0, 0.0, 1.0, 0.0, u};
-      if (u == store.infinity) continue;
-      const Vector3<double> d = store.p[u] - p;
-      arm[k] = {d.x, d.y, d.z, dot(d, d), norm(d), u};
+      arm[k] = u == store.infinity ? Cloud::infinite_arm(u) : store.cloud.arm(u, p);
     }
     store.sphere[static_cast<std::size_t>(t)] = sphere_of(p, arm[0], arm[1], arm[2]);
   }
   worker.start_at(made[4]);
 }
 
+template <class Cloud>
 class Insertion {
  public:
-  Insertion(Store& store, Job& job, std::vector<Id> done)
+  Insertion(Store<Cloud>& store, Job& job, std::vector<Id> done)
       : store_(store), job_(job), done_(std::move(done)), n_(store.infinity) {
-    for (int i = 0; i < job.threads(); ++i) workers_.push_back(std::make_unique<Worker>(store));
+    for (int i = 0; i < job.threads(); ++i)
+      workers_.push_back(std::make_unique<Worker<Cloud>>(store));
   }
-  Worker& first() { return *workers_[0]; }
+  Worker<Cloud>& first() { return *workers_[0]; }
   void run_round(const Id* begin, const Id* end);
 
  private:
@@ -67,15 +67,16 @@ class Insertion {
   void insert_all(const Id* begin, const Id* end);
   bool skip(Id i) const { return std::find(done_.begin(), done_.end(), i) != done_.end(); }
 
-  Store& store_;
+  Store<Cloud>& store_;
   Job& job_;
   std::vector<Id> done_;
   Id n_;
-  std::vector<std::unique_ptr<Worker>> workers_;
+  std::vector<std::unique_ptr<Worker<Cloud>>> workers_;
 };
 
-void Insertion::insert_all(const Id* begin, const Id* end) {
-  Worker& worker = first();
+template <class Cloud>
+void Insertion<Cloud>::insert_all(const Id* begin, const Id* end) {
+  Worker<Cloud>& worker = first();
   worker.take_range(0, n_);
   for (const Id* i = begin; i < end; ++i) {
     if (((i - begin) & 0x3ff) == 0) job_.poll();
@@ -87,11 +88,12 @@ void Insertion::insert_all(const Id* begin, const Id* end) {
   }
 }
 
-void Insertion::run_parallel(const Id* begin, const Id* end, std::vector<Id>& later) {
+template <class Cloud>
+void Insertion<Cloud>::run_parallel(const Id* begin, const Id* end, std::vector<Id>& later) {
   const auto count = static_cast<std::size_t>(job_.threads());
   std::vector<std::vector<Id>> left(count);
   job_.run(count, [&](std::size_t k) {
-    Worker& worker = *workers_[k];
+    Worker<Cloud>& worker = *workers_[k];
     const auto lo = static_cast<Id>(static_cast<std::size_t>(n_) * k / count);
     const auto hi = static_cast<Id>(static_cast<std::size_t>(n_) * (k + 1) / count);
     worker.take_range(lo, hi);
@@ -106,7 +108,8 @@ void Insertion::run_parallel(const Id* begin, const Id* end, std::vector<Id>& la
   for (const auto& l : left) later.insert(later.end(), l.begin(), l.end());
 }
 
-void Insertion::run_round(const Id* begin, const Id* end) {
+template <class Cloud>
+void Insertion<Cloud>::run_round(const Id* begin, const Id* end) {
   constexpr std::ptrdiff_t kWorthwhile = 4000;  // points a thread
   if (job_.threads() > 1 && end - begin > kWorthwhile * job_.threads()) {
     std::vector<Id> later;
@@ -118,21 +121,15 @@ void Insertion::run_round(const Id* begin, const Id* end) {
   job_.advance(0.6 * static_cast<double>(end - begin) / static_cast<double>(n_));
 }
 
-}  // namespace
-
-Mesh3 delaunay3(const SpatialOrder3& order, const std::vector<Id>& span, Job& job) {
+template <class Cloud>
+Mesh3 triangulate(const SpatialOrder3& order, const std::vector<Id>& span, Job& job) {
   Mesh3 mesh;
-  mesh.infinity = static_cast<Id>(order.size);
-  Store store;
-  store.p = order.points.data();
-  store.infinity = mesh.infinity;
-  store.lattice = order.lattice;
-  const double u = order.lattice.unit;
-  store.exact = 16.0 * (u * u * u * u * u);
+  Store<Cloud> store(order);
+  mesh.infinity = store.infinity;
   const Rounds rounds = plan_rounds(order.size);
   // Ample for nearly all clouds; what is never touched costs nothing.
   store.reserve(8 * order.size + 8192 * (static_cast<std::size_t>(job.threads()) + 1));
-  Insertion insertion(store, job, span);
+  Insertion<Cloud> insertion(store, job, span);
   insertion.first().take_range(0, mesh.infinity);
   make_first(store, insertion.first(), span);
   for (std::size_t r = 0; r + 1 < rounds.start.size(); ++r) {
@@ -142,6 +139,16 @@ Mesh3 delaunay3(const SpatialOrder3& order, const std::vector<Id>& span, Job& jo
   mesh.slots = store.used.load();
   mesh.slot = std::move(store.slot);
   return mesh;
+}
+
+}  // namespace
+
+Mesh3 delaunay3(const SpatialOrder3& order, const std::vector<Id>& span, Job& job) {
+  return triangulate<PlainCloud3>(order, span, job);
+}
+
+Mesh3 regular3(const SpatialOrder3& order, const std::vector<Id>& span, Job& job) {
+  return triangulate<WeightedCloud3>(order, span, job);
 }
 
 }  // namespace alphamesh

@@ -40,4 +40,10 @@ struct Mesh3 {
 // `span` comes from spanning_points(): four of them.
 Mesh3 delaunay3(const SpatialOrder3& order, const std::vector<std::int32_t>& span, Job& job);
 
+// The regular triangulation of weighted points, in the same way; its power tests see the points
+// lifted to |p|^2 - weight. Points without a tetrahedron are hidden: some never enter, some are
+// swallowed by the cavity of a heavier one. What is hidden by some points is hidden by more, so
+// that neither order nor threads matter here either.
+Mesh3 regular3(const SpatialOrder3& order, const std::vector<std::int32_t>& span, Job& job);
+
 }  // namespace alphamesh

@@ -60,13 +60,14 @@ class Found {
 };
 
 // Goes around the edges of a range of tetrahedra. Those that it passes need not start again.
+template <class Rule>
 class Ring {
  public:
-  Ring(const Compact3& mesh, const Facets3& facets, std::uint8_t* done, std::size_t lo,
+  Ring(const Compact3& mesh, const Facets3<Rule>& facets, std::uint8_t* done, std::size_t lo,
        std::size_t hi)
       : neighbor_(mesh.neighbor.data()),
         facets_(facets),
-        obtuse_(facets.obtuse.data()),
+        code_(facets.code.data()),
         done_(done),
         lo_(lo),
         hi_(hi) {}
@@ -85,7 +86,7 @@ class Ring {
     double value = std::numeric_limits<double>::infinity();
     for (const Id own : facet_) {
       const Id code = neighbor_[own];
-      const Id owner = Facets3::owns(static_cast<std::size_t>(own >> 2), code) ? own : code;
+      const Id owner = Facets3<Rule>::owns(static_cast<std::size_t>(own >> 2), code) ? own : code;
       const auto t = static_cast<std::size_t>(owner >> 2);
       const int before = (facets_.before[t] >> (2 * (owner & 3))) & 3;
       value = std::min(value, radii[static_cast<std::size_t>(facets_.first[t] + before)]);
@@ -103,7 +104,7 @@ class Ring {
     do {
       const Id facet = static_cast<Id>(4 * s) + leave, code = neighbor_[facet];
       facet_.push_back(facet);
-      attached_ |= ((obtuse_[s] >> (2 * leave)) & 3) == keep;
+      attached_ |= Rule::attached(code_[s], leave, keep);
       if (code < 0) return kHull;
       s = static_cast<std::size_t>(code >> 2);
       if (s < t) return kNotOurs;
@@ -116,21 +117,21 @@ class Ring {
   }
 
   const Id* neighbor_;
-  const Facets3& facets_;
-  const std::uint8_t* obtuse_;
+  const Facets3<Rule>& facets_;
+  const typename Rule::Code* code_;
   std::uint8_t* done_;
   std::size_t lo_, hi_;
   std::vector<Id> facet_;
   bool attached_ = false;
 };
 
+template <class Rule>
 class Collector {
  public:
-  Collector(const SpatialOrder3& order, const Compact3& mesh, const Facets3& facets,
-            const Buffer<double>& triangle_radii)
-      : p_(order.points.data()),
-        row_(order.row.data()),
-        unscale_(-order.exponent),
+  Collector(const SpatialOrder3& order, const Compact3& mesh, const Facets3<Rule>& facets,
+            Rule& rule, const Buffer<double>& triangle_radii)
+      : row_(order.row.data()),
+        rule_(rule),
         mesh_(mesh),
         facets_(facets),
         radii_(triangle_radii),
@@ -138,7 +139,7 @@ class Collector {
 
   void collect(std::size_t lo, std::size_t hi, const Job& job, Found& found) {
     std::fill(done_.begin() + lo, done_.begin() + hi, std::uint8_t{0});
-    Ring ring(mesh_, facets_, done_.data(), lo, hi);
+    Ring<Rule> ring(mesh_, facets_, done_.data(), lo, hi);
     for (std::size_t t = lo; t < hi; ++t) {
       if (((t - lo) & 0x3fff) == 0) job.poll();
       for (unsigned left = ~unsigned{done_[t]} & 63u; left != 0; left &= left - 1) {
@@ -149,33 +150,33 @@ class Collector {
   }
 
  private:
-  Edge edge(std::size_t t, int i, int j, const Ring& ring) const {
+  Edge edge(std::size_t t, int i, int j, const Ring<Rule>& ring) {
     const Id u = mesh_.vertex[4 * t + static_cast<std::size_t>(i)];
     const Id v = mesh_.vertex[4 * t + static_cast<std::size_t>(j)];
-    // No radius of a triangle is less than half of its longest side, also as rounded.
-    const double value =
-        ring.attached() ? ring.least(radii_) : unscale_ * (0.5 * norm(p_[v] - p_[u]));
+    rule_.meet(u, v);
+    auto least = [&] { return ring.least(radii_); };
+    const double value = ring.attached() ? least() : rule_.edge(u, v, least);
     return {{std::min(row_[u], row_[v]), std::max(row_[u], row_[v])}, value};
   }
 
-  const Point3* p_;
   const Id* row_;
-  PowerOfTwo unscale_;
+  Rule& rule_;
   const Compact3& mesh_;
-  const Facets3& facets_;
+  const Facets3<Rule>& facets_;
   const Buffer<double>& radii_;
   Buffer<std::uint8_t> done_;  // edges of a tetrahedron seen from a lower one of the same part
 };
 
 }  // namespace
 
-Edges3 edges3(const SpatialOrder3& order, Compact3& mesh, Facets3&& given,
+template <class Rule>
+Edges3 edges3(const SpatialOrder3& order, Compact3& mesh, Facets3<Rule>&& given, Rule& rule,
               const Buffer<double>& triangle_radii, Job& job) {
   std::vector<Found> found;
   const Parts parts(mesh.count, job, 1024);
   {
-    const Facets3 facets = std::move(given);
-    Collector collector(order, mesh, facets, triangle_radii);
+    const Facets3<Rule> facets = std::move(given);
+    Collector<Rule> collector(order, mesh, facets, rule, triangle_radii);
     for (std::size_t part = 0; part < parts.count(); ++part) {
       found.emplace_back((parts.end(part) - parts.begin(part)) * 5 / 4 + 64);
     }
@@ -199,5 +200,10 @@ Edges3 edges3(const SpatialOrder3& order, Compact3& mesh, Facets3&& given,
   });
   return out;
 }
+
+template Edges3 edges3<PlainRule3>(const SpatialOrder3&, Compact3&, Facets3<PlainRule3>&&,
+                                   PlainRule3&, const Buffer<double>&, Job&);
+template Edges3 edges3<WeightedRule3>(const SpatialOrder3&, Compact3&, Facets3<WeightedRule3>&&,
+                                      WeightedRule3&, const Buffer<double>&, Job&);
 
 }  // namespace alphamesh

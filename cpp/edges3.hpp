@@ -7,16 +7,18 @@
 #include "compact3.hpp"
 #include "memory.hpp"
 #include "parallel.hpp"
+#include "rules3.hpp"
 #include "spatial_sort.hpp"
 
 namespace alphamesh {
 
 // What is known of the facets. One belongs to the lower of its two tetrahedra, an edge to
 // the lowest of all around it.
+template <class Rule>
 struct Facets3 {
   Buffer<std::int32_t> first;   // per tetrahedron: the first triangle that belongs to it
   Buffer<std::uint8_t> before;  // how many of its own precede facet k, two bits each
-  Buffer<std::uint8_t> obtuse;  // see TetrahedronBlock
+  Buffer<typename Rule::Code> code;
 
   // Whether the facet of t belongs to it, given what lies across; -1 wraps around.
   static int owns(std::size_t t, std::int32_t code) {
@@ -30,7 +32,8 @@ struct Edges3 {
 };
 
 // Uses up the neighbours and the facets, so that their memory can hold the result.
-Edges3 edges3(const SpatialOrder3& order, Compact3& mesh, Facets3&& facets,
+template <class Rule>
+Edges3 edges3(const SpatialOrder3& order, Compact3& mesh, Facets3<Rule>&& facets, Rule& rule,
               const Buffer<double>& triangle_radii, Job& job);
 
 }  // namespace alphamesh

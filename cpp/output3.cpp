@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "edges3.hpp"
-#include "values3.hpp"
+#include "rules3.hpp"
 
 namespace alphamesh {
 namespace {
@@ -43,12 +43,16 @@ void sort_rows(const SpatialOrder3& order, Buffer<Id>& tetrahedra, Job& job) {
 }
 
 // Fills the arrays of triangles, and the radii of tetrahedra; a part is a range of tetrahedra.
+template <class Rule>
 class Writer {
  public:
-  Writer(const SpatialOrder3& order, const Compact3& mesh, Facets3& facets, Filtration3& out,
-         Job& job)
+  using Tetrahedra = typename Rule::Tetrahedra;
+  using Triangles = typename Rule::Triangles;
+
+  Writer(const SpatialOrder3& order, const Rule& rule, const Compact3& mesh, Facets3<Rule>& facets,
+         Filtration3& out, Job& job)
       : order_(order),
-        p_(order.points.data()),
+        rule_(rule),
         row_(order.row.data()),
         mesh_(mesh),
         facets_(facets),
@@ -60,16 +64,16 @@ class Writer {
   void triangles();
 
  private:
-  void write_tetrahedra(std::size_t t, std::size_t end, TetrahedronBlock& block);
+  void write_tetrahedra(std::size_t t, std::size_t end, Tetrahedra& block);
   std::size_t number_triangles(std::size_t lo, std::size_t hi);
-  void write_triangles(const Id* owned, std::size_t count, std::size_t f, FlatBlock& block);
-  void flush(FlatBlock& block, const std::size_t* at);
+  void write_triangles(const Id* owned, std::size_t count, std::size_t f, Triangles& block);
+  void flush(Triangles& block, const std::size_t* at);
 
   const SpatialOrder3& order_;
-  const Point3* p_;
+  const Rule& rule_;
   const Id* row_;
   const Compact3& mesh_;
-  Facets3& facets_;
+  Facets3<Rule>& facets_;
   Filtration3& out_;
   Job& job_;
   Parts parts_;
@@ -77,27 +81,29 @@ class Writer {
   std::vector<std::size_t> first_;  // first triangle of each part
 };
 
-void Writer::write_tetrahedra(std::size_t t, std::size_t end, TetrahedronBlock& block) {
+template <class Rule>
+void Writer<Rule>::write_tetrahedra(std::size_t t, std::size_t end, Tetrahedra& block) {
   for (std::size_t i = t; i < end; ++i) {
-    const Id* v = &mesh_.vertex[4 * i];
-    block.push(p_[v[0]], p_[v[1]], p_[v[2]], p_[v[3]]);
+    rule_.push(block, &mesh_.vertex[4 * i]);
   }
   block.measure(order_.lattice, order_.exponent);
   std::copy(block.radius, block.radius + block.count, &out_.tetrahedron_radii[t]);
   std::copy(block.attached, block.attached + block.count, &attached_[t]);
-  std::copy(block.obtuse, block.obtuse + block.count, &facets_.obtuse[t]);
+  const auto* codes = Rule::codes(block);
+  std::copy(codes, codes + block.count, &facets_.code[t]);
   block.count = 0;
 }
 
 // Counts the triangles of each tetrahedron of a part, from 0.
-std::size_t Writer::number_triangles(std::size_t lo, std::size_t hi) {
+template <class Rule>
+std::size_t Writer<Rule>::number_triangles(std::size_t lo, std::size_t hi) {
   std::size_t triangles = 0;
   for (std::size_t t = lo; t < hi; ++t) {
     const Id* code = &mesh_.neighbor[4 * t];
     int before[4], count = 0;
     for (int k = 0; k < 4; ++k) {
       before[k] = count;
-      count += Facets3::owns(t, code[k]);
+      count += Facets3<Rule>::owns(t, code[k]);
     }
     facets_.first[t] = static_cast<Id>(triangles);
     facets_.before[t] =
@@ -107,15 +113,16 @@ std::size_t Writer::number_triangles(std::size_t lo, std::size_t hi) {
   return triangles;
 }
 
-void Writer::tetrahedra() {
+template <class Rule>
+void Writer<Rule>::tetrahedra() {
   out_.tetrahedron_radii = Buffer<double>(mesh_.count);
   attached_ = Buffer<std::uint8_t>(mesh_.count);
-  facets_.obtuse = Buffer<std::uint8_t>(mesh_.count);
+  facets_.code = Buffer<typename Rule::Code>(mesh_.count);
   facets_.before = Buffer<std::uint8_t>(mesh_.count);
   facets_.first = Buffer<Id>(mesh_.count);
   first_.assign(parts_.count() + 1, 0);
   job_.run(parts_.count(), [&](std::size_t part) {
-    TetrahedronBlock block;
+    Tetrahedra block;
     const std::size_t hi = parts_.end(part);
     for (std::size_t t = parts_.begin(part); t < hi; t += kBlock) {
       write_tetrahedra(t, std::min(t + kBlock, hi), block);
@@ -126,7 +133,8 @@ void Writer::tetrahedra() {
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
 }
 
-void Writer::flush(FlatBlock& block, const std::size_t* at) {
+template <class Rule>
+void Writer<Rule>::flush(Triangles& block, const std::size_t* at) {
   block.measure(order_.lattice, order_.exponent);
   for (std::size_t i = 0; i < block.count; ++i) {
     double& radius = out_.triangle_radii[at[i]];
@@ -137,15 +145,17 @@ void Writer::flush(FlatBlock& block, const std::size_t* at) {
 
 // The triangles that are facets owned[i] = 4t + k, from row f on: those that are attached
 // enter with their first tetrahedron.
-void Writer::write_triangles(const Id* owned, std::size_t count, std::size_t f, FlatBlock& block) {
-  std::size_t free[FlatBlock::kSize], at[FlatBlock::kSize];  // owned[free[i]] is not attached
+template <class Rule>
+void Writer<Rule>::write_triangles(const Id* owned, std::size_t count, std::size_t f,
+                                   Triangles& block) {
+  std::size_t free[kBlock], at[kBlock];  // owned[free[i]] is not attached
   std::size_t frees = 0;
   auto measure = [&] {
     for (std::size_t i = 0; i < frees; ++i) {
       const std::size_t t = static_cast<std::size_t>(owned[free[i]] >> 2);
       const Id* v = &mesh_.vertex[4 * t];
       const int k = owned[free[i]] & 3;
-      block.push(p_[v[k == 0 ? 1 : 0]], p_[v[k <= 1 ? 2 : 1]], p_[v[k <= 2 ? 3 : 2]]);
+      rule_.push(block, v[k == 0 ? 1 : 0], v[k <= 1 ? 2 : 1], v[k <= 2 ? 3 : 2]);
       at[i] = f + free[i];
     }
     flush(block, at);
@@ -164,18 +174,19 @@ void Writer::write_triangles(const Id* owned, std::size_t count, std::size_t f, 
     write_triangle(row_, corner, &out_.triangles[3 * (f + i)]);
     free[frees] = i;
     frees += (((attached_[t] >> k) | (attached_[other] >> j)) & 1) == 0 ? 1 : 0;
-    if (frees == FlatBlock::kSize) measure();
+    if (frees == kBlock) measure();
   }
   measure();
 }
 
-void Writer::triangles() {
+template <class Rule>
+void Writer<Rule>::triangles() {
   const std::size_t count = first_.back();
   out_.triangles = Buffer<Id>(3 * count);
   out_.triangle_radii = Buffer<double>(count);
   out_.triangle_tetrahedra = Buffer<Id>(2 * count);
   job_.run(parts_.count(), [&](std::size_t part) {
-    FlatBlock block;
+    Triangles block;
     Id owned[4 * kBlock + 4];
     std::size_t f = first_[part];
     const std::size_t hi = parts_.end(part);
@@ -185,7 +196,7 @@ void Writer::triangles() {
         facets_.first[t] += static_cast<Id>(first_[part]);
         for (std::size_t k = 0; k < 4; ++k) {
           owned[found] = static_cast<Id>(4 * t + k);
-          found += static_cast<std::size_t>(Facets3::owns(t, mesh_.neighbor[4 * t + k]));
+          found += static_cast<std::size_t>(Facets3<Rule>::owns(t, mesh_.neighbor[4 * t + k]));
         }
       }
       write_triangles(owned, found, f, block);
@@ -217,22 +228,32 @@ void write_rows(const SpatialOrder3& order, Compact3& mesh, Job& job) {
   });
 }
 
-Filtration3 filtration3(const SpatialOrder3& order, Compact3&& compact, Job& job) {
+template <class Rule>
+Filtration3 filtration3(const SpatialOrder3& order, Compact3&& compact, Rule& rule, Job& job) {
   Filtration3 out;
   Compact3 mesh = std::move(compact);
   if (mesh.count == 0) return out;
-  Facets3 facets;
+  Facets3<Rule> facets;
   {
-    Writer writer(order, mesh, facets, out, job);
+    Writer<Rule> writer(order, rule, mesh, facets, out, job);
     writer.tetrahedra();
     writer.triangles();
   }
-  Edges3 edges = edges3(order, mesh, std::move(facets), out.triangle_radii, job);
+  Edges3 edges = edges3<Rule>(order, mesh, std::move(facets), rule, out.triangle_radii, job);
   out.edges = std::move(edges.ends);
   out.edge_radii = std::move(edges.radii);
   sort_rows(order, mesh.vertex, job);
   out.tetrahedra = std::move(mesh.vertex);
   return out;
+}
+
+template Filtration3 filtration3<PlainRule3>(const SpatialOrder3&, Compact3&&, PlainRule3&, Job&);
+template Filtration3 filtration3<WeightedRule3>(const SpatialOrder3&, Compact3&&, WeightedRule3&,
+                                                Job&);
+
+Filtration3 filtration3(const SpatialOrder3& order, Compact3&& mesh, Job& job) {
+  PlainRule3 rule(order);
+  return filtration3<PlainRule3>(order, std::move(mesh), rule, job);
 }
 
 }  // namespace alphamesh

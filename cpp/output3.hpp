@@ -28,5 +28,8 @@ struct Filtration3 {
 
 // The alpha filtration (Edelsbrunner & Muecke 1994), see Filtration2.
 Filtration3 filtration3(const SpatialOrder3& order, Compact3&& mesh, Job& job);
+// The same by a rule, see rules3.hpp.
+template <class Rule>
+Filtration3 filtration3(const SpatialOrder3& order, Compact3&& mesh, Rule& rule, Job& job);
 
 }  // namespace alphamesh

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "power3.hpp"
 #include "predicates3.hpp"
 
 namespace alphamesh {
@@ -35,11 +36,11 @@ struct Arm {
   std::int32_t vertex;
 };
 
-inline Sphere sphere_of(Point3 p, const Arm& a, const Arm& b, const Arm& c) {
+template <class S, class A>
+inline void set_equation(S& s, Point3 p, const A& a, const A& b, const A& c) {
   const double bx = b.y * c.z - b.z * c.y, by = b.z * c.x - b.x * c.z, bz = b.x * c.y - b.y * c.x;
   const double cx = c.y * a.z - c.z * a.y, cy = c.z * a.x - c.x * a.z, cz = c.x * a.y - c.y * a.x;
   const double ax = a.y * b.z - a.z * b.y, ay = a.z * b.x - a.x * b.z, az = a.x * b.y - a.y * b.x;
-  Sphere s;
   s.nx = a.square * bx + b.square * cx + c.square * ax;
   s.ny = a.square * by + b.square * cy + c.square * ay;
   s.nz = a.square * bz + b.square * cz + c.square * az;
@@ -47,6 +48,11 @@ inline Sphere sphere_of(Point3 p, const Arm& a, const Arm& b, const Arm& c) {
   s.ox = p.x;
   s.oy = p.y;
   s.oz = p.z;
+}
+
+inline Sphere sphere_of(Point3 p, const Arm& a, const Arm& b, const Arm& c) {
+  Sphere s;
+  set_equation(s, p, a, b, c);
   // The terms add up to at most sqrt(3) |a||b||c| (s |e| + |e|^2), s = |a| + |b| + |c|, and
   // for a ghost to sqrt(3) |a||b||e|; s |e| is at most (s^2 + |e|^2) / 2. Some 16 roundings.
   const double product = a.length * b.length * c.length, sum = a.length + b.length + c.length;
@@ -69,6 +75,45 @@ inline Verdict test(const Sphere& s, Point3 q) {
   const double x = q.x - s.ox, y = q.y - s.oy, z = q.z - s.oz, square = x * x + y * y + z * z;
   return {s.nx * x + s.ny * y + s.nz * z - s.w * square,
           from_upper_half(s.b1) * square + from_upper_half(s.b0)};
+}
+
+// The same with weights: the sphere orthogonal to the four balls. Where it says |e|^2 above, it
+// is less by how much heavier e is than the origin; the sign is sure beyond
+// b1 |e|^2 + b2 |difference of weights| + b0.
+struct PowerSphere {
+  double nx, ny, nz, w, ox, oy, oz, weight;
+  std::uint32_t b0, b1, b2;
+};
+
+// `square` is lifted, `terms` the sum of the magnitudes of what it is made of.
+struct PowerArm {
+  double x, y, z, square, length, terms;
+  std::int32_t vertex;
+};
+
+inline PowerSphere sphere_of(const Weighted3& p, const PowerArm& a, const PowerArm& b,
+                             const PowerArm& c) {
+  PowerSphere s;
+  set_equation(s, p, a, b, c);
+  s.weight = p.weight;
+  // With P = |a||b||c|, T = sum of terms(a) |b||c| and s = |a| + |b| + |c| the terms add up to at
+  // most 2 / sqrt(3) (T |e| + P terms(e)), and T |e| to T (s + |e|^2 / s) / 2. For a ghost P is 0.
+  // Some 18 roundings, two more than without weights.
+  const double bc = b.length * c.length, ca = c.length * a.length, ab = a.length * b.length;
+  const double product = a.length * bc, sum = a.length + b.length + c.length;
+  const double terms = a.terms * bc + b.terms * ca + c.terms * ab;
+  s.b0 = upper_half(16.0 * kEps * terms * sum);
+  s.b1 = upper_half(kEps * (16.0 * terms / sum + 32.0 * product));
+  s.b2 = upper_half(32.0 * kEps * product);
+  return s;
+}
+
+inline Verdict test(const PowerSphere& s, const Weighted3& q) {
+  const double x = q.x - s.ox, y = q.y - s.oy, z = q.z - s.oz, square = x * x + y * y + z * z;
+  const double weight = q.weight - s.weight;
+  return {s.nx * x + s.ny * y + s.nz * z - s.w * (square - weight),
+          from_upper_half(s.b1) * square + from_upper_half(s.b2) * std::fabs(weight) +
+              from_upper_half(s.b0)};
 }
 
 }  // namespace alphamesh

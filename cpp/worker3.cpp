@@ -6,14 +6,16 @@ namespace alphamesh {
 
 using Id = std::int32_t;
 
-void Worker::take_range(Id first, Id last) {
+template <class Cloud>
+void Worker<Cloud>::take_range(Id first, Id last) {
   first_ = first;
   last_ = last;
   out_of_room_ = false;
 }
 
 // Stands on a tetrahedron of its own, or finds one.
-bool Worker::has_start() {
+template <class Cloud>
+bool Worker<Cloud>::has_start() {
   if (here_ >= 0 && tet(here_).vertex[0] >= 0 && owns_all(here_)) return true;
   const auto used = static_cast<Id>(store_.used.load());
   const Id from = static_cast<Id>(std::int64_t{used} * first_ / std::max(1, store_.infinity));
@@ -27,7 +29,8 @@ bool Worker::has_start() {
   return false;
 }
 
-Id Worker::new_slot() {
+template <class Cloud>
+Id Worker<Cloud>::new_slot() {
   if (!free_.empty()) {
     const Id t = free_.back();
     free_.pop_back();
@@ -37,7 +40,8 @@ Id Worker::new_slot() {
 }
 
 // Makes sure that so many new slots can be had.
-bool Worker::provide(std::size_t slots) {
+template <class Cloud>
+bool Worker<Cloud>::provide(std::size_t slots) {
   while (free_.size() + (chunk_end_ - chunk_) < slots) {
     while (chunk_ < chunk_end_) free_.push_back(static_cast<Id>(chunk_++));
     const std::size_t begin = store_.used.fetch_add(kChunk);
@@ -53,36 +57,31 @@ bool Worker::provide(std::size_t slots) {
   return true;
 }
 
-int Worker::infinite(Id t) {
+template <class Cloud>
+int Worker<Cloud>::infinite(Id t) {
   for (int i = 0; i < 4; ++i) {
     if (vertex(t, i) == store_.infinity) return i;
   }
   return -1;
 }
 
-bool Worker::conflict_exact(Id t, Point3 q, Verdict verdict) {
+template <class Cloud>
+bool Worker<Cloud>::conflict_exact(Id t, Point q, Verdict verdict) {
   const int ghost = infinite(t);
-  Point3 p[4];
-  for (int i = 0; i < 4; ++i) p[i] = i == ghost ? q : store_.p[vertex(t, i)];
-  if (ghost >= 0) {
-    const int side = orient3(p[0], p[1], p[2], p[3], store_.lattice);
-    if (side != 0) return side > 0;
-    // In the plane of a hull facet: inside its circle if inside the sphere behind it.
-    return conflict(tet(t).neighbor[ghost] >> 2, q);
-  }
-  int s = 0;
-  if (verdict.bound < store_.exact) {
-    s = sign_of(verdict.value);
-  } else {
-    s = in_sphere_exact(p[0], p[1], p[2], p[3], q, store_.lattice);
-  }
-  return s != 0 ? s > 0 : in_sphere_perturbed(p[0], p[1], p[2], p[3], q, store_.lattice);
+  Id v[4];
+  for (int i = 0; i < 4; ++i) v[i] = i == ghost ? point_ : vertex(t, i);
+  if (ghost < 0) return store_.cloud.in_sphere(v, point_, verdict);
+  const int side = store_.cloud.orient(v);
+  if (side != 0) return side > 0;
+  // In the plane of a hull facet: inside its circle if inside the sphere behind it.
+  return conflict(tet(t).neighbor[ghost] >> 2, q);
 }
 
 // The facet behind which q lies, by the largest distance in plain arithmetic; -1 if none.
-int Worker::way_out(Id t, Point3 q, int entry) {
+template <class Cloud>
+int Worker<Cloud>::way_out(Id t, Point q, int entry) {
   Vector3<double> d[4];
-  for (int i = 0; i < 4; ++i) d[i] = store_.p[vertex(t, i)] - q;
+  for (int i = 0; i < 4; ++i) d[i] = store_.cloud.place(vertex(t, i)) - q;
   const Vector3<double> cd = cross(d[2], d[3]), ab = cross(d[0], d[1]);
   const double side[4] = {dot(d[1], cd), -dot(d[0], cd), dot(d[3], ab), -dot(d[2], ab)};
   int best = -1;
@@ -101,43 +100,53 @@ int Worker::way_out(Id t, Point3 q, int entry) {
   return best;
 }
 
-// Walks to a tetrahedron whose sphere contains q; -1 if the way leaves what is ours.
-Id Worker::locate(Point3 q) {
+// Walks to a tetrahedron whose sphere contains q, or to one that contains q itself if that one's
+// sphere does not: q is hidden then, and stays so whatever is inserted.
+template <class Cloud>
+typename Worker<Cloud>::Found Worker<Cloud>::locate(Point q) {
   Id t = here_;
   int entry = -1;
   for (int step = 0; step < 1000; ++step) {
-    if (conflict(t, q)) return t;
+    if (conflict(t, q)) {
+      here_ = t;
+      return Found::kConflict;
+    }
     const int ghost = infinite(t);
     const int exit = ghost >= 0 ? ghost : way_out(t, q, entry);
     if (exit < 0) break;
     const Id code = tet(t).neighbor[exit];
+    if (!owns_all(code >> 2)) return Found::kNotOurs;
     t = code >> 2;
     entry = code & 3;
-    if (!owns_all(t)) return -1;
   }
-  return locate_exactly(t, q);
+  here_ = t;
+  return locate_exactly(q);
 }
 
 // The same with exact signs and random turns, which always arrives.
-Id Worker::locate_exactly(Id t, Point3 q) {
-  while (!conflict(t, q)) {
-    int exit = infinite(t);
+template <class Cloud>
+typename Worker<Cloud>::Found Worker<Cloud>::locate_exactly(Point q) {
+  while (!conflict(here_, q)) {
+    int exit = infinite(here_);
     random_ = random_ * 1664525u + 1013904223u;
     for (int k = 0; exit < 0 && k < 4; ++k) {
       const int i = static_cast<int>((random_ >> 30) + static_cast<unsigned>(k)) & 3;
-      Point3 p[4];
-      for (int j = 0; j < 4; ++j) p[j] = j == i ? q : store_.p[vertex(t, j)];
-      if (orient3(p[0], p[1], p[2], p[3], store_.lattice) < 0) exit = i;
+      Id v[4];
+      for (int j = 0; j < 4; ++j) v[j] = j == i ? point_ : vertex(here_, j);
+      if (store_.cloud.orient(v) < 0) exit = i;
     }
-    t = tet(t).neighbor[exit] >> 2;
-    if (!owns_all(t)) return -1;
+    if (exit < 0) return Found::kHidden;
+    const Id t = tet(here_).neighbor[exit] >> 2;
+    if (!owns_all(t)) return Found::kNotOurs;
+    here_ = t;
   }
-  return t;
+  return Found::kConflict;
 }
 
 // All tetrahedra whose spheres contain q, and the facets around them. False, and nothing
 // changed, if one of them is not ours.
-bool Worker::collect(Id start, Point3 q) {
+template <class Cloud>
+bool Worker<Cloud>::collect(Id start, Point q) {
   cavity_.clear();
   border_.clear();
   cavity_.reserve(8);
@@ -159,7 +168,8 @@ bool Worker::collect(Id start, Point3 q) {
 
 // Looks across facet i of t, which is in the cavity. False if what lies there is in, too, but
 // not ours.
-inline bool Worker::visit(Id t, Id i, Point3 q) {
+template <class Cloud>
+inline bool Worker<Cloud>::visit(Id t, Id i, Point q) {
   const Id code = tet(t).neighbor[i], u = code >> 2;
   if (tet(u).vertex[3] < 0) return true;
   if (!conflict(u, q)) {
@@ -176,7 +186,8 @@ inline bool Worker::visit(Id t, Id i, Point3 q) {
   return true;
 }
 
-void Worker::prefetch_around(Id code) {
+template <class Cloud>
+void Worker<Cloud>::prefetch_around(Id code) {
   const Id* around = tet(code >> 2).neighbor;
   for (Id i = 1; i < 4; ++i) {
     const auto u = static_cast<std::size_t>(around[(code + i) & 3] >> 2);
@@ -185,12 +196,14 @@ void Worker::prefetch_around(Id code) {
   }
 }
 
-void Worker::unmark() {
+template <class Cloud>
+void Worker<Cloud>::unmark() {
   for (const Id code : cavity_) tet(code >> 2).vertex[3] &= kVertex;
 }
 
 // Numbers the vertices of the border from 0 and sees them from q.
-void Worker::number_vertices(Point3 q) {
+template <class Cloud>
+void Worker<Cloud>::number_vertices(Point q) {
   arm_.clear();
   for (Border& b : border_) {
     arm_.reserve(3);
@@ -207,18 +220,13 @@ void Worker::number_vertices(Point3 q) {
   }
   for (Arm& a : arm_) {
     local_[static_cast<std::size_t>(a.vertex)] = -1;
-    if (a.vertex == store_.infinity) {
-      a = {0.0, 0.0, 0.0, 1.0, 0.0, a.vertex};
-      continue;
-    }
-    const Vector3<double> d = store_.p[a.vertex] - q;
-    const double square = dot(d, d);
-    a = {d.x, d.y, d.z, square, std::sqrt(square), a.vertex};
+    a = a.vertex == store_.infinity ? Cloud::infinite_arm(a.vertex) : store_.cloud.arm(a.vertex, q);
   }
 }
 
 // Puts a tetrahedron on each facet of the border; the slots of the cavity come first.
-void Worker::fill_star(Id point, Point3 q) {
+template <class Cloud>
+void Worker<Cloud>::fill_star(Id point, Point q) {
   for (std::size_t k = 0; k < border_.size(); ++k) {
     Border& b = border_[k];
     b.made = k < cavity_.size() ? cavity_[k] >> 2 : new_slot();
@@ -238,7 +246,8 @@ void Worker::fill_star(Id point, Point3 q) {
 
 // Around the new point, facet i of a tetrahedron belongs to the directed edge from local
 // vertex i + 1 to i + 2; the neighbour has the same edge the other way.
-void Worker::link_by_table() {
+template <class Cloud>
+void Worker<Cloud>::link_by_table() {
   for (const Border& b : border_) {
     for (int i = 0; i < 3; ++i) {
       const auto from = static_cast<std::size_t>(b.local[(i + 1) % 3]);
@@ -255,7 +264,8 @@ void Worker::link_by_table() {
   }
 }
 
-void Worker::link_by_sorting() {
+template <class Cloud>
+void Worker<Cloud>::link_by_sorting() {
   directed_.clear();
   auto key = [](Id from, Id to) {
     return (std::uint64_t{static_cast<std::uint32_t>(from)} << 32) | static_cast<std::uint32_t>(to);
@@ -274,11 +284,15 @@ void Worker::link_by_sorting() {
   }
 }
 
-// False, and nothing changed, if the cavity is not all ours or room is lacking.
-bool Worker::insert(Id point) {
-  const Point3 q = store_.p[point];
-  const Id start = locate(q);
-  if (start < 0 || !collect(start, q)) return false;
+// False, and nothing changed, if the cavity is not all ours or room is lacking. A point that is
+// hidden is done with.
+template <class Cloud>
+bool Worker<Cloud>::insert(Id point) {
+  const Point q = store_.cloud.point(point);
+  point_ = point;
+  const Found found = locate(q);
+  if (Cloud::kHides && found == Found::kHidden) return true;
+  if (found == Found::kNotOurs || !collect(here_, q)) return false;
   const std::size_t old = cavity_.size(), made = border_.size();
   if (made > old && !provide(made - old)) {
     unmark();
@@ -294,5 +308,8 @@ bool Worker::insert(Id point) {
   here_ = border_[0].made;
   return true;
 }
+
+template class Worker<PlainCloud3>;
+template class Worker<WeightedCloud3>;
 
 }  // namespace alphamesh

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "cloud3.hpp"
 #include "delaunay3.hpp"
 #include "memory.hpp"
-#include "sphere3.hpp"
 #include "stack.hpp"
 
 namespace alphamesh {
@@ -24,14 +24,16 @@ constexpr int kFacet[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 // What all workers share. In parallel, each keeps to its own tetrahedra; only the counter
 // of slots is common.
+template <class Cloud>
 struct Store {
-  const Point3* p;
+  Cloud cloud;
   std::int32_t infinity;
-  Lattice3 lattice;
-  double exact = 0.0;  // a bound below this means that nothing was rounded
   Buffer<Tetrahedron> slot;
-  Buffer<Sphere> sphere;
+  Buffer<typename Cloud::Sphere> sphere;
   std::atomic<std::size_t> used{0};
+
+  explicit Store(const SpatialOrder3& order)
+      : cloud(order), infinity(static_cast<std::int32_t>(order.size)) {}
 
   void reserve(std::size_t slots) {
     if (slots <= slot.size()) return;
@@ -42,11 +44,15 @@ struct Store {
 };
 
 // Inserts points numbered first_ ... last_ - 1.
+template <class Cloud>
 class Worker {
  public:
   using Id = std::int32_t;
+  using Point = typename Cloud::Point;
+  using Arm = typename Cloud::Arm;
 
-  Worker(Store& store) : store_(store), local_(static_cast<std::size_t>(store.infinity) + 1) {
+  Worker(Store<Cloud>& store)
+      : store_(store), local_(static_cast<std::size_t>(store.infinity) + 1) {
     std::fill(local_.begin(), local_.end(), -1);
     table_.resize(kTable * kTable);
   }
@@ -66,6 +72,8 @@ class Worker {
     Id made;
   };
 
+  enum class Found { kConflict, kHidden, kNotOurs };
+
   static constexpr std::size_t kTable = 256;
   static constexpr std::size_t kChunk = 1024;
 
@@ -80,28 +88,29 @@ class Worker {
     return owns(v[0]) & owns(v[1]) & owns(v[2]) & owns(v[3] & kVertex);
   }
   int infinite(Id t);
-  bool conflict(Id t, Point3 q) {
+  bool conflict(Id t, Point q) {
     const Verdict v = test(store_.sphere[static_cast<std::size_t>(t)], q);
     if (v.value > v.bound) return true;
     if (v.value < -v.bound) return false;
     return conflict_exact(t, q, v);
   }
-  bool conflict_exact(Id t, Point3 q, Verdict verdict);
-  Id locate(Point3 q);
-  Id locate_exactly(Id t, Point3 q);
-  int way_out(Id t, Point3 q, int entry);
-  bool collect(Id start, Point3 q);
-  bool visit(Id t, Id i, Point3 q);
+  bool conflict_exact(Id t, Point q, Verdict verdict);
+  Found locate(Point q);
+  Found locate_exactly(Point q);
+  int way_out(Id t, Point q, int entry);
+  bool collect(Id start, Point q);
+  bool visit(Id t, Id i, Point q);
   void prefetch_around(Id code);
   void unmark();
-  void number_vertices(Point3 q);
-  void fill_star(Id point, Point3 q);
+  void number_vertices(Point q);
+  void fill_star(Id point, Point q);
   void link_by_table();
   void link_by_sorting();
 
-  Store& store_;
+  Store<Cloud>& store_;
   Id first_ = 0, last_ = 0;
   Id here_ = -1;
+  Id point_ = -1;  // that is being inserted
   bool out_of_room_ = false;
   std::uint32_t random_ = 12345;
   std::size_t chunk_ = 0, chunk_end_ = 0;

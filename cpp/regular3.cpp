@@ -1,0 +1,46 @@
+#include "regular3.hpp"
+
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "compact3.hpp"
+#include "delaunay3.hpp"
+#include "rules3.hpp"
+#include "span3.hpp"
+
+namespace alphamesh {
+namespace {
+
+using Id = std::int32_t;
+
+VertexRows vertices_of(const SpatialOrder3& order, const WeightedRule3& rule, const Filtration3& f,
+                       const double* weights, std::size_t n, const Job& job) {
+  Buffer<Role> role(n);
+  std::fill(role.begin(), role.end(), Role::kNone);
+  for (std::size_t v = 0; v < order.size; ++v)
+    role[static_cast<std::size_t>(order.row[v])] = rule.role(v);
+  const Id* representative =
+      order.representative.size() == 0 ? nullptr : order.representative.data();
+  const EdgeView edges{f.edges.data(), f.edge_radii.data(), f.edge_radii.size()};
+  return vertex_rows(role.data(), weights, representative, n, edges, job);
+}
+
+}  // namespace
+
+RegularFiltration3 regular_filtration3(const SpatialOrder3& order, const double* weights,
+                                       std::size_t n, Job& job) {
+  RegularFiltration3 out;
+  const std::vector<Id> span = spanning_points(order, job);
+  out.dimension = static_cast<int>(span.size()) - 1;
+  if (out.dimension < 3) {
+    throw std::domain_error("weighted points in a plane of space are not supported yet");
+  }
+  WeightedRule3 rule(order);
+  Mesh3 mesh = regular3(order, span, job);
+  out.simplices = filtration3(order, compact3(order, std::move(mesh), job), rule, job);
+  out.vertices = vertices_of(order, rule, out.simplices, weights, n, job);
+  return out;
+}
+
+}  // namespace alphamesh
