@@ -134,7 +134,7 @@ def expected_squares(points, simplices):
     return squares
 
 
-def check_tetrahedra(points, tetrahedra):
+def check_tetrahedra(points, tetrahedra, inside=in_sphere):
     facets = {}
     total = 0
     for row in tetrahedra:
@@ -153,7 +153,7 @@ def check_tetrahedra(points, tetrahedra):
         if len(sides) == 2:
             (corners, apex), (_, other) = sides
             assert volume(*triangle, apex) * volume(*triangle, other) < 0, f"fold at {row}"
-            assert not in_sphere(corners, other), f"facet {row} is not locally Delaunay"
+            assert not inside(corners, other), f"facet {row} is not locally Delaunay"
             continue
         out = 1 if volume(*triangle, sides[0][1]) > 0 else -1
         assert all(out * volume(*triangle, p) >= 0 for p in points), f"{row} is not on the hull"
