@@ -20,7 +20,7 @@ from alphamesh.classify import (
     facet_intervals,
     least_at_vertices,
 )
-from alphamesh.delaunay3d import Delaunay3D, oriented_tetrahedra, triangulation
+from alphamesh.delaunay3d import Delaunay3D, neighbors_in_space, oriented_tetrahedra
 from alphamesh.measures import tetrahedron_volumes, triangle_areas
 from alphamesh.points import (
     as_cloud,
@@ -162,12 +162,15 @@ class Filtration3D(Record):
     @cached_property
     def delaunay(self) -> Delaunay3D:
         """The triangulation that the simplices are those of, with its neighbours."""
-        return triangulation(
+        _, edges, triangles, tetrahedra = self.simplices
+        return Delaunay3D(
             self.points,
             self.representative,
-            self.simplices[1:],
-            self.triangle_tetrahedra,
-            self.tetrahedron_triangles,
+            tetrahedra,
+            neighbors_in_space(self.triangle_tetrahedra, self.tetrahedron_triangles),
+            (triangles, edges),
+            self.weights,
+            self.hidden,
         )
 
     @cached_property
