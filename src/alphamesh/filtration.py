@@ -11,7 +11,7 @@ import numpy as np
 from alphamesh import _kernels
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.weighted import regular2
-from alphamesh._weights import equal_weight, nothing_hidden, shifted_radii
+from alphamesh._weights import equal_weight, hidden_text, nothing_hidden, shifted_radii
 from alphamesh.classify import (
     Intervals,
     chosen,
@@ -199,7 +199,10 @@ class Filtration(Record):
 
     def __repr__(self) -> str:
         vertices, edges, triangles = (f"{len(rows):,}" for rows in self.simplices)
-        return f"<Filtration: {vertices} vertices, {edges} edges, {triangles} triangles>"
+        return (
+            f"<Filtration: {vertices} vertices, {edges} edges, {triangles} triangles"
+            f"{hidden_text(self.hidden)}>"
+        )
 
 
 #: What :func:`filtration` returns.

@@ -13,7 +13,7 @@ from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.space import alpha3, tetrahedron_triangles3, triangle_edges3
 from alphamesh._kernels.topology import persistence3
 from alphamesh._kernels.weighted import regular3
-from alphamesh._weights import equal_weight, nothing_hidden, shifted_radii
+from alphamesh._weights import equal_weight, hidden_text, nothing_hidden, shifted_radii
 from alphamesh.classify import (
     Intervals,
     face_intervals,
@@ -228,7 +228,7 @@ class Filtration3D(Record):
         counts = [f"{len(rows):,}" for rows in self.simplices]
         return (
             f"<Filtration3D: {counts[0]} vertices, {counts[1]} edges, {counts[2]} triangles, "
-            f"{counts[3]} tetrahedra>"
+            f"{counts[3]} tetrahedra{hidden_text(self.hidden)}>"
         )
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from alphamesh import _shapely, arcs
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.cells import restricted2
+from alphamesh._weights import refuse_weights
 from alphamesh.errors import ParameterError
 from alphamesh.filtration import Filtration
 from alphamesh.measures import kernel_points
@@ -302,6 +303,8 @@ def restricted_voronoi(
     ParameterError
         If `radius` is not a finite number of at least 0, or one of the others is not what
         it must be.
+    UnweightedOnlyError
+        If the points have weights.
     """
     given: Any = filtration
     if not isinstance(given, Filtration):
@@ -309,6 +312,11 @@ def restricted_voronoi(
             f"restricted_voronoi needs a filtration, not {type(given).__name__}; make one with "
             "alphamesh.filtration(points), or use AlphaComplex.restricted_voronoi(radius)"
         )
+    refuse_weights(
+        filtration.weights,
+        "restricted Voronoi cells",
+        "for the complex itself, see AlphaComplex.at(radius)",
+    )
     radius = _checked(radius)
     points, exponent = kernel_points(filtration.points)
     _, edges, triangles = filtration.simplices
