@@ -42,7 +42,8 @@ def film_radii(persistence: Persistence, radii: Any = None, frames: int = 100) -
         radii may be negative.
     frames : int, default 100
         How many, unless `radii` lists them: the first at radius 0, with weights where the
-        first point appears, the others where the complex changes. If it changes less often, the discs grow in the frames between.
+        first point appears, the others where the complex changes. If it changes less
+        often, the discs grow in the frames between.
 
     Returns
     -------
