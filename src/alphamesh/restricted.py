@@ -306,17 +306,7 @@ def restricted_voronoi(
     UnweightedOnlyError
         If the points have weights.
     """
-    given: Any = filtration
-    if not isinstance(given, Filtration):
-        raise ParameterError(
-            f"restricted_voronoi needs a filtration, not {type(given).__name__}; make one with "
-            "alphamesh.filtration(points), or use AlphaComplex.restricted_voronoi(radius)"
-        )
-    refuse_weights(
-        filtration.weights,
-        "restricted Voronoi cells",
-        "for the complex itself, see AlphaComplex.at(radius)",
-    )
+    _refuse_others(filtration)
     radius = _checked(radius)
     points, exponent = kernel_points(filtration.points)
     _, edges, triangles = filtration.simplices
@@ -349,6 +339,21 @@ def restricted_voronoi(
         read_only(area),
         _rescaled(segment_length, exponent),
         arc_length,
+    )
+
+
+def _refuse_others(filtration: Filtration) -> None:
+    """Raise unless this is a filtration of balls of equal size in the plane."""
+    given: Any = filtration
+    if not isinstance(given, Filtration):
+        raise ParameterError(
+            f"restricted_voronoi needs a filtration, not {type(given).__name__}; make one with "
+            "alphamesh.filtration(points), or use AlphaComplex.restricted_voronoi(radius)"
+        )
+    refuse_weights(
+        filtration.weights,
+        "restricted Voronoi cells",
+        "for the complex itself, see AlphaComplex.at(radius)",
     )
 
 

@@ -19,9 +19,7 @@ def _given_balls(filtration: AnyFiltration) -> RadiusChoice:
     """Choose 0: no ball grows nor shrinks."""
     assert filtration.weights is not None
     empty = int(np.count_nonzero(filtration.weights < 0))
-    without = (
-        f"; {counted(empty, 'point')} of negative weight stand without one" if empty else ""
-    )
+    without = f"; without a ball: {counted(empty, 'point')} of negative weight" if empty else ""
     reason = (
         "Each ball has the size that its weight gives it: at radius 0, the complex is the "
         f"dual of the union of these balls{without}."
