@@ -8,7 +8,7 @@ import numpy as np
 
 from alphamesh import _coercion
 from alphamesh._arrays import read_only
-from alphamesh.errors import WeightsError, rows_text
+from alphamesh.errors import UnweightedOnlyError, WeightsError, rows_text
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 __all__ = [
     "as_weights",
     "equal_weight",
+    "has_weights",
+    "hidden_text",
     "nothing_hidden",
+    "refuse_weights",
     "shifted_radii",
     "signed_root",
     "signed_square",
@@ -106,9 +109,39 @@ def _wrong_rows(fault: str, rows: np.ndarray[Any, Any]) -> WeightsError:
     )
 
 
+def has_weights(weights: FloatArray | None) -> bool:
+    """Return whether there are weights other than zero, which change nothing."""
+    return weights is not None and bool(weights.any())
+
+
+def refuse_weights(weights: FloatArray | None, what: str, remedy: str) -> None:
+    """Raise if there are weights other than zero.
+
+    Parameters
+    ----------
+    weights : (n,) float64 or None
+    what : str
+        What is not there for them, in the plural.
+    remedy : str
+
+    Raises
+    ------
+    UnweightedOnlyError
+    """
+    if has_weights(weights):
+        raise UnweightedOnlyError(f"{what} are there for balls of equal size alone; {remedy}")
+
+
 def nothing_hidden() -> IntArray:
     """Return the rows that are hidden in a cloud without weights: none."""
     return read_only(np.empty(0, dtype=np.int32))
+
+
+def hidden_text(hidden: IntArray) -> str:
+    """Return ``", 12 hidden points"``, or nothing if there are none."""
+    if len(hidden) == 0:
+        return ""
+    return f", {len(hidden):,} hidden point{'s' if len(hidden) > 1 else ''}"
 
 
 def equal_weight(weights: FloatArray) -> float | None:

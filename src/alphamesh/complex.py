@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self
 
+from alphamesh._weights import hidden_text
 from alphamesh.classify import critical_radii
 from alphamesh.curves import MeasureCurves, measure_curves
 from alphamesh.export import Exports
@@ -364,7 +365,10 @@ class AlphaComplex(Exports):
 
     def __repr__(self) -> str:
         vertices, edges, triangles = (f"{len(rows):,}" for rows in self.simplices)
-        return f"<AlphaComplex: {vertices} vertices, {edges} edges, {triangles} triangles>"
+        return (
+            f"<AlphaComplex: {vertices} vertices, {edges} edges, {triangles} triangles"
+            f"{hidden_text(self.hidden)}>"
+        )
 
     def __copy__(self) -> AlphaComplex:
         return self

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from alphamesh._weights import hidden_text
 from alphamesh.classify import critical_radii
 from alphamesh.complex import AlphaComplex
 from alphamesh.curves3d import MeasureCurves3D, measure_curves_in_space
@@ -150,5 +151,5 @@ class AlphaComplex3D(AlphaComplex):
         vertices, edges, triangles, tetrahedra = (f"{len(rows):,}" for rows in self.simplices)
         return (
             f"<AlphaComplex3D: {vertices} vertices, {edges} edges, {triangles} triangles, "
-            f"{tetrahedra} tetrahedra>"
+            f"{tetrahedra} tetrahedra{hidden_text(self.hidden)}>"
         )

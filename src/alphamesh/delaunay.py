@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -11,14 +11,17 @@ import numpy as np
 from alphamesh import _kernels
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.cells import locate2
+from alphamesh._kernels.weighted import regular2
+from alphamesh._weights import equal_weight, nothing_hidden
 from alphamesh.delaunay3d import Delaunay3D, delaunay_in_space
-from alphamesh.points import as_cloud, coordinate_error, tiny_queries
+from alphamesh.points import as_cloud, coordinate_error, merged_rows, tiny_queries
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
+    from alphamesh.points import Cloud
 
-__all__ = ["Delaunay", "delaunay", "delaunay_in_plane", "edges_of"]
+__all__ = ["Delaunay", "delaunay", "delaunay_in_plane", "edges_of", "neighbors_of"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -37,6 +40,12 @@ class Delaunay(Record):
         opposite to ``triangles[t, j]``; -1 on the convex hull.
     path : (E, 2) int32
         Of a cloud on one line, the edges from each point to the next; else empty.
+    weights : (n,) float64 or None
+        Squared radii of balls: the triangulation is the regular one, dual to the power
+        diagram [3]_. None for balls of equal size.
+    hidden : (h,) int32
+        Rows that are no vertices because heavier points leave them no part of the power
+        diagram, ascending.
 
     All arrays are read-only.
 
@@ -52,6 +61,8 @@ class Delaunay(Record):
        l'URSS, Classe des sciences mathématiques et naturelles 6 (1934) 793-800.
     .. [2] O. Devillers and M. Teillaud, Perturbations for Delaunay and weighted Delaunay
        3D triangulations, Computational Geometry 44 (2011) 160-168.
+    .. [3] F. Aurenhammer, Power diagrams: properties, algorithms and applications, SIAM
+       Journal on Computing 16 (1987) 78-96.
     """
 
     points: FloatArray
@@ -59,6 +70,8 @@ class Delaunay(Record):
     triangles: IntArray
     neighbors: IntArray
     path: IntArray
+    weights: FloatArray | None = None
+    hidden: IntArray = field(default_factory=nothing_hidden)
 
     @cached_property
     def edges(self) -> IntArray:
@@ -125,7 +138,11 @@ def edges_of(triangles: IntArray, neighbors: IntArray) -> IntArray:
 
 
 def delaunay(
-    points: Any, *, threads: int | None = None, progress: Progress | None = None
+    points: Any,
+    *,
+    weights: Any = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Delaunay | Delaunay3D:
     """Triangulate a cloud; every decision is exact.
 
@@ -133,6 +150,9 @@ def delaunay(
     ----------
     points : array-like of shape (n, 2) or (n, 3)
         See :func:`alphamesh.points.as_cloud`. Duplicates are merged.
+    weights : array-like of shape (n,), optional
+        Squared radii of balls: then the triangulation is the regular one. By default all
+        balls are of equal size.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
         on it.
@@ -148,10 +168,12 @@ def delaunay(
     ------
     CloudShapeError, NonFiniteError, CoordinateRangeError, CloudTooLargeError
         If there is no exact triangulation of such points; the message names the rows.
+    WeightsError
+        If there is not one finite weight for each point.
     ParameterError
         If `threads` or `progress` is not what it must be.
     """
-    cloud = as_cloud(points)
+    cloud = as_cloud(points, weights=weights)
     if cloud.points.shape[1] == 3:
         return delaunay_in_space(cloud, threads=threads, progress=progress)
     return delaunay_in_plane(cloud, threads=threads, progress=progress)
@@ -162,6 +184,8 @@ def delaunay_in_plane(
 ) -> Delaunay:
     """Triangulate a cloud in the plane; see :func:`delaunay`."""
     cloud = as_cloud(points, 2)
+    if cloud.weights is not None and equal_weight(cloud.weights) is None:
+        return _regular(cloud, threads, progress)
     try:
         result = _kernels.delaunay2(cloud.points, threads, progress)
     except _kernels.BadCoordinates:
@@ -169,4 +193,38 @@ def delaunay_in_plane(
     representative, triangles, neighbors, path = result
     if representative is None:
         representative = read_only(np.arange(len(cloud.points), dtype=np.int32))
-    return Delaunay(cloud.points, representative, triangles, neighbors, path)
+    return Delaunay(cloud.points, representative, triangles, neighbors, path, cloud.weights)
+
+
+def _regular(cloud: Cloud, threads: int | None, progress: Progress | None) -> Delaunay:
+    """Triangulate a cloud whose weights differ."""
+    assert cloud.weights is not None
+    try:
+        result = regular2(cloud.points, cloud.weights, threads, progress)
+    except _kernels.BadCoordinates:
+        raise coordinate_error(cloud.points, cloud.weights) from None
+    merged, hidden, (_, edges, triangles), _, edge_triangles = result
+    return Delaunay(
+        cloud.points,
+        merged_rows(merged, len(cloud))[0],
+        triangles,
+        neighbors_of(triangles, edges, edge_triangles),
+        edges if len(triangles) == 0 else edges[:0],
+        cloud.weights,
+        hidden,
+    )
+
+
+def neighbors_of(triangles: IntArray, edges: IntArray, edge_triangles: IntArray) -> IntArray:
+    """Return the triangle beyond the edge opposite to each corner, ``(T, 3)`` int32."""
+    neighbors = np.full(triangles.size, -1, dtype=np.int32)
+    # Hull edges have one triangle, which keeps its -1.
+    inner = np.flatnonzero(edge_triangles.min(axis=1, initial=0) >= 0)
+    cofaces, ends = (rows.take(inner, axis=0) for rows in (edge_triangles, edges))
+    for side in (0, 1):
+        corners = triangles.take(cofaces[:, side], axis=0)
+        # Corners and ends ascend, so the corner left out is where they first differ.
+        opposite = 2 - (corners[:, 1] != ends[:, 1])
+        opposite[corners[:, 0] != ends[:, 0]] = 0
+        neighbors[3 * cofaces[:, side].astype(np.intp) + opposite] = cofaces[:, 1 - side]
+    return read_only(neighbors.reshape(-1, 3))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,8 @@ import numpy as np
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels import BadCoordinates
 from alphamesh._kernels.space import alpha3, delaunay3, orient3, tetrahedron_triangles3
+from alphamesh._kernels.weighted import regular3
+from alphamesh._weights import equal_weight, nothing_hidden
 from alphamesh.hull3d import ConvexHull3D
 from alphamesh.location3d import as_queries_in_space, labels_at
 from alphamesh.measures import scaled_points
@@ -19,13 +21,14 @@ from alphamesh.points import as_cloud, coordinate_error, merged_rows
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
     from alphamesh._kernels import Progress
+    from alphamesh.points import Cloud
 
 __all__ = [
     "Delaunay3D",
     "delaunay_in_space",
+    "neighbors_in_space",
     "oriented_tetrahedra",
     "outward_triangles",
-    "triangulation",
 ]
 
 # Tetrahedra worked on at a time: their coordinates stay in the processor's cache.
@@ -51,6 +54,9 @@ class Delaunay3D(Record):
     faces : tuple of (F, 3) int32 and (E, 2) int32, or None
         `triangles` and `edges`, if these are known already; else they are found when they
         are asked for.
+    weights : (n,) float64 or None
+    hidden : (h,) int32
+        See :class:`~alphamesh.Delaunay`.
 
     All arrays are read-only.
 
@@ -71,6 +77,8 @@ class Delaunay3D(Record):
     tetrahedra: IntArray
     neighbors: IntArray
     faces: tuple[IntArray, IntArray] | None = None
+    weights: FloatArray | None = None
+    hidden: IntArray = field(default_factory=nothing_hidden)
 
     @property
     def triangles(self) -> IntArray:
@@ -169,28 +177,45 @@ def delaunay_in_space(
     Delaunay3D
     """
     cloud = as_cloud(points, 3)
+    if cloud.weights is not None and equal_weight(cloud.weights) is None:
+        return _regular(cloud, threads, progress)
     try:
         merged, tetrahedra, neighbors = delaunay3(cloud.points, threads, progress)
         representative, _ = merged_rows(merged, len(cloud))
     except BadCoordinates:
         raise coordinate_error(cloud.points) from None
-    return Delaunay3D(cloud.points, representative, tetrahedra, neighbors)
+    return Delaunay3D(
+        cloud.points, representative, tetrahedra, neighbors, weights=cloud.weights
+    )
 
 
-def triangulation(
-    points: FloatArray,
-    representative: IntArray,
-    simplices: tuple[IntArray, IntArray, IntArray],
-    triangle_tetrahedra: IntArray,
-    tetrahedron_triangles: IntArray,
-) -> Delaunay3D:
-    """Return the triangulation of edges, triangles and tetrahedra that know their cofaces."""
-    edges, triangles, tetrahedra = simplices
+def _regular(cloud: Cloud, threads: int | None, progress: Progress | None) -> Delaunay3D:
+    """Triangulate a cloud whose weights differ."""
+    assert cloud.weights is not None
+    try:
+        result = regular3(cloud.points, cloud.weights, threads, progress)
+    except BadCoordinates:
+        raise coordinate_error(cloud.points, cloud.weights) from None
+    merged, hidden, (_, edges, triangles, tetrahedra), _, cofaces = result
+    return Delaunay3D(
+        cloud.points,
+        merged_rows(merged, len(cloud))[0],
+        tetrahedra,
+        neighbors_in_space(cofaces, tetrahedron_triangles3(tetrahedra, triangles, cofaces)),
+        (triangles, edges),
+        cloud.weights,
+        hidden,
+    )
+
+
+def neighbors_in_space(
+    triangle_tetrahedra: IntArray, tetrahedron_triangles: IntArray
+) -> IntArray:
+    """Return the tetrahedron beyond the triangle opposite to each corner, ``(T, 4)`` int32."""
     # The numbers on either side of a triangle sum up to one and the other.
     both = triangle_tetrahedra.sum(axis=1, dtype=np.int32)
-    rows = np.arange(len(tetrahedra), dtype=np.int32)[:, np.newaxis]
-    neighbors = read_only(both.take(tetrahedron_triangles) - rows)
-    return Delaunay3D(points, representative, tetrahedra, neighbors, (triangles, edges))
+    rows = np.arange(len(tetrahedron_triangles), dtype=np.int32)[:, np.newaxis]
+    return read_only(both.take(tetrahedron_triangles) - rows)
 
 
 def oriented_tetrahedra(points: FloatArray, tetrahedra: IntArray) -> IntArray:

@@ -11,7 +11,7 @@ import numpy as np
 from alphamesh import _kernels
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.weighted import regular2
-from alphamesh._weights import equal_weight, nothing_hidden, shifted_radii
+from alphamesh._weights import equal_weight, hidden_text, nothing_hidden, shifted_radii
 from alphamesh.classify import (
     Intervals,
     chosen,
@@ -19,7 +19,7 @@ from alphamesh.classify import (
     least_at_vertices,
     vertex_intervals,
 )
-from alphamesh.delaunay import Delaunay
+from alphamesh.delaunay import Delaunay, neighbors_of
 from alphamesh.filtration3d import Filtration3D, filtration_in_space
 from alphamesh.measures import scaled_points, triangle_areas
 from alphamesh.points import (
@@ -199,7 +199,10 @@ class Filtration(Record):
 
     def __repr__(self) -> str:
         vertices, edges, triangles = (f"{len(rows):,}" for rows in self.simplices)
-        return f"<Filtration: {vertices} vertices, {edges} edges, {triangles} triangles>"
+        return (
+            f"<Filtration: {vertices} vertices, {edges} edges, {triangles} triangles"
+            f"{hidden_text(self.hidden)}>"
+        )
 
 
 #: What :func:`filtration` returns.
@@ -313,20 +316,12 @@ def _weighted(cloud: Cloud, threads: int | None, progress: Progress | None) -> F
 def _delaunay_of(filtration: Filtration) -> Delaunay:
     """Return the triangulation that a filtration was made of."""
     _, edges, triangles = filtration.simplices
-    neighbors = np.full(triangles.size, -1, dtype=np.int32)
-    # Hull edges have one triangle, which keeps its -1.
-    inner = np.flatnonzero(filtration.edge_triangles.min(axis=1, initial=0) >= 0)
-    cofaces, ends = (rows.take(inner, axis=0) for rows in (filtration.edge_triangles, edges))
-    for side in (0, 1):
-        corners = triangles.take(cofaces[:, side], axis=0)
-        # Corners and ends ascend, so the corner left out is where they first differ.
-        opposite = 2 - (corners[:, 1] != ends[:, 1])
-        opposite[corners[:, 0] != ends[:, 0]] = 0
-        neighbors[3 * cofaces[:, side].astype(np.intp) + opposite] = cofaces[:, 1 - side]
     return Delaunay(
         filtration.points,
         filtration.representative,
         triangles,
-        read_only(neighbors.reshape(-1, 3)),
+        neighbors_of(triangles, edges, filtration.edge_triangles),
         edges if len(triangles) == 0 else edges[:0],
+        filtration.weights,
+        filtration.hidden,
     )

@@ -13,14 +13,14 @@ from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.space import alpha3, tetrahedron_triangles3, triangle_edges3
 from alphamesh._kernels.topology import persistence3
 from alphamesh._kernels.weighted import regular3
-from alphamesh._weights import equal_weight, nothing_hidden, shifted_radii
+from alphamesh._weights import equal_weight, hidden_text, nothing_hidden, shifted_radii
 from alphamesh.classify import (
     Intervals,
     face_intervals,
     facet_intervals,
     least_at_vertices,
 )
-from alphamesh.delaunay3d import Delaunay3D, oriented_tetrahedra, triangulation
+from alphamesh.delaunay3d import Delaunay3D, neighbors_in_space, oriented_tetrahedra
 from alphamesh.measures import tetrahedron_volumes, triangle_areas
 from alphamesh.points import (
     as_cloud,
@@ -162,12 +162,15 @@ class Filtration3D(Record):
     @cached_property
     def delaunay(self) -> Delaunay3D:
         """The triangulation that the simplices are those of, with its neighbours."""
-        return triangulation(
+        _, edges, triangles, tetrahedra = self.simplices
+        return Delaunay3D(
             self.points,
             self.representative,
-            self.simplices[1:],
-            self.triangle_tetrahedra,
-            self.tetrahedron_triangles,
+            tetrahedra,
+            neighbors_in_space(self.triangle_tetrahedra, self.tetrahedron_triangles),
+            (triangles, edges),
+            self.weights,
+            self.hidden,
         )
 
     @cached_property
@@ -225,7 +228,7 @@ class Filtration3D(Record):
         counts = [f"{len(rows):,}" for rows in self.simplices]
         return (
             f"<Filtration3D: {counts[0]} vertices, {counts[1]} edges, {counts[2]} triangles, "
-            f"{counts[3]} tetrahedra>"
+            f"{counts[3]} tetrahedra{hidden_text(self.hidden)}>"
         )
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
+from alphamesh._weights import refuse_weights
 from alphamesh.delaunay import Delaunay, delaunay_in_plane, edges_of
 from alphamesh.errors import ParameterError
 from alphamesh.hull import convex_hull
@@ -199,6 +200,7 @@ def framed_delaunay(
             f"frame must be an alphamesh.Frame, such as Frame('circle'); got {given!r}"
         )
     cloud = as_cloud(points, 2)
+    refuse_weights(cloud.weights, "frames", "leave the frame out")
     count = len(cloud)
     frame_points = frame.around(cloud)
     everything = np.concatenate((cloud.points, frame_points))

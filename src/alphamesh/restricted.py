@@ -13,6 +13,7 @@ import numpy as np
 from alphamesh import _shapely, arcs
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.cells import restricted2
+from alphamesh._weights import refuse_weights
 from alphamesh.errors import ParameterError
 from alphamesh.filtration import Filtration
 from alphamesh.measures import kernel_points
@@ -302,13 +303,10 @@ def restricted_voronoi(
     ParameterError
         If `radius` is not a finite number of at least 0, or one of the others is not what
         it must be.
+    UnweightedOnlyError
+        If the points have weights.
     """
-    given: Any = filtration
-    if not isinstance(given, Filtration):
-        raise ParameterError(
-            f"restricted_voronoi needs a filtration, not {type(given).__name__}; make one with "
-            "alphamesh.filtration(points), or use AlphaComplex.restricted_voronoi(radius)"
-        )
+    _refuse_others(filtration)
     radius = _checked(radius)
     points, exponent = kernel_points(filtration.points)
     _, edges, triangles = filtration.simplices
@@ -341,6 +339,21 @@ def restricted_voronoi(
         read_only(area),
         _rescaled(segment_length, exponent),
         arc_length,
+    )
+
+
+def _refuse_others(filtration: Filtration) -> None:
+    """Raise unless this is a filtration of balls of equal size in the plane."""
+    given: Any = filtration
+    if not isinstance(given, Filtration):
+        raise ParameterError(
+            f"restricted_voronoi needs a filtration, not {type(given).__name__}; make one with "
+            "alphamesh.filtration(points), or use AlphaComplex.restricted_voronoi(radius)"
+        )
+    refuse_weights(
+        filtration.weights,
+        "restricted Voronoi cells",
+        "for the complex itself, see AlphaComplex.at(radius)",
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.cells import restricted2, rings2, voronoi_vertices2
+from alphamesh._weights import refuse_weights
 from alphamesh.clip import ClippedVoronoi, lines_in_box
 from alphamesh.filtration import Filtration, filtration_in_plane
 from alphamesh.measures import kernel_points
@@ -236,6 +237,12 @@ def voronoi(
 
 def voronoi_of(filtration: Filtration, *, threads: int | None = None) -> Voronoi:
     """Return the Voronoi diagram that is dual to the triangulation of a filtration."""
+    refuse_weights(
+        filtration.weights,
+        "Voronoi diagrams",
+        "the neighbours in a power diagram are the edges of alphamesh.delaunay(points, "
+        "weights=weights)",
+    )
     points, exponent = kernel_points(filtration.points)
     _, edges, triangles = filtration.simplices
     cofaces = filtration.edge_triangles

@@ -30,6 +30,7 @@ from alphamesh.cli.summary import (
     size_text,
 )
 from alphamesh.cli.types import AUTO, RadiusType, Rule, SourceType
+from alphamesh.cli.weights import weights_option
 from alphamesh.errors import DimensionError
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def plot_option(what: str) -> Callable[[Function], Function]:
 def cloud_options(command: Function) -> Function:
     """Add the options of every command that reads a cloud and tells of it."""
     common = (quiet_option, json_option, units_option, overwrite_option, threads_option)
-    for option in (*common, table_options, sampling_options):
+    for option in (*common, weights_option, table_options, sampling_options):
         command = option(command)
     return command
 
@@ -139,7 +140,12 @@ class Job:
     @property
     def duplicates(self) -> int:
         """Points that repeat an earlier one."""
-        return len(self.complex.points) - len(self.complex.simplices[0])
+        return len(self.complex.points) - len(self.complex.simplices[0]) - self.hidden
+
+    @property
+    def hidden(self) -> int:
+        """Points that heavier ones leave no part of the power diagram."""
+        return len(self.complex.hidden)
 
     def tell(self, facts: dict[str, Any], lines: dict[str, str], outputs: Outputs) -> None:
         """Print input, results and files; end with an error if a file failed."""
@@ -154,6 +160,7 @@ class Job:
                     "input": self.given.facts,
                     "points": points,
                     "duplicates": self.duplicates,
+                    **({} if self.complex.weights is None else {"hidden": self.hidden}),
                     **({"units": units} if units else {}),
                     **facts,
                     "files": [{"path": path, "bytes": size} for path, size in sizes.items()],
@@ -165,7 +172,7 @@ class Job:
             print_lines(
                 {
                     "Input": self.given.text,
-                    "Points": points_text(points, self.duplicates),
+                    "Points": points_text(points, self.duplicates, self.hidden),
                     **lines,
                     **({"Written": "\n".join(written)} if written else {}),
                 }

@@ -15,6 +15,7 @@ from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import length_text
 from alphamesh.cli.tables import write_table
+from alphamesh.cli.types import MostRadius
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -42,7 +43,7 @@ _EXAMPLES = (
 @output_options(TableFile(".csv"), "Write the simplices here", name="tables")
 @click.option(
     "--max-radius",
-    type=click.FloatRange(0),
+    type=MostRadius(),
     metavar="R",
     help="Leave out simplices that come later.  [default: none]",
 )
@@ -92,7 +93,7 @@ class _Simplices:
         counts = {
             plural: len(rows) for (plural, _), rows in zip(_NAMES, self.simplices, strict=False)
         }
-        last = max((float(radii.max(initial=0.0)) for radii in self.radii), default=0.0)
+        last = max((float(radii.max()) for radii in self.radii if len(radii)), default=0.0)
         lines = {name.capitalize(): f"{count:,}" for name, count in counts.items()}
         lines["Last comes at"] = length_text(last)
         return {**counts, "dimension": self.given.dimension, "last_radius": last}, lines
@@ -107,8 +108,9 @@ class _Simplices:
     def _values(self) -> list[NDArray[np.float64]]:
         if not self.squared:
             return self.radii
-        with np.errstate(over="ignore", under="ignore"):
-            return [np.square(radii) for radii in self.radii]
+        from alphamesh._weights import signed_square
+
+        return [signed_square(radii) for radii in self.radii]
 
     def _columns(self) -> dict[str, NDArray[Any]]:
         """Return one entry for each simplex; those of equal radius by dimension."""
@@ -131,6 +133,8 @@ class _Simplices:
             "points": self.given.points,
             "representative": self.given.representative,
         }
+        if self.given.weights is not None:
+            arrays |= {"weights": self.given.weights, "hidden": self.given.hidden}
         ending = "radii_squared" if self.squared else "radii"
         parts = zip(_NAMES, self.simplices, self._values(), strict=False)
         for (plural, singular), rows, values in parts:

@@ -18,6 +18,7 @@ from alphamesh.cli.mesh_facts import tell_surface
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted, number, points_text, print_json, print_lines
+from alphamesh.cli.weights import weights_option
 from alphamesh.errors import AlphameshError
 from alphamesh.measures import edge_lengths
 
@@ -53,6 +54,7 @@ _EXAMPLES = (
 @click.command("info", cls=Command, examples=_EXAMPLES)
 @click.argument("source", metavar="FILE")
 @table_options
+@weights_option
 @threads_option
 @json_option
 @quiet_option
@@ -102,22 +104,28 @@ def _points(source: str, options: InputOptions, threads: int | None, steps: Step
 
     given = load(source, options, steps)
     with steps.step(f"Triangulating {counted(len(given.points), 'point')}") as done:
-        complex_ = filtration(given.points, threads=threads, progress=done)
-    count, distinct = len(complex_.points), len(complex_.simplices[0])
+        complex_ = filtration(
+            given.points, weights=given.weights, threads=threads, progress=done
+        )
+    count, hidden = len(complex_.points), len(complex_.hidden)
+    duplicates = count - len(complex_.simplices[0]) - hidden
     facts: dict[str, Any] = {
         **given.facts,
         "points": count,
-        "duplicates": count - distinct,
+        "duplicates": duplicates,
+        **({} if given.weights is None else {"hidden": hidden}),
         "dimension": complex_.dimension,
     }
     lines = {
         "File": given.text,
-        "Points": points_text(count, count - distinct),
+        "Points": points_text(count, duplicates, hidden),
         "Dimension": _dimension_text(complex_),
     }
     if count:
         _tell_bounds(complex_.points, facts, lines)
-        _tell_spacing(complex_, facts, lines)
+        # The nearest neighbours are those of a Delaunay triangulation.
+        plain = complex_ if given.weights is None else filtration(given.points, threads=threads)
+        _tell_spacing(plain, facts, lines)
         choice = choose_radius(complex_)
         facts |= {"radius": choice.radius, "rule": choice.rule, "reason": choice.reason}
         lines["Suggested radius"] = f"{number(choice.radius)}  ({choice.rule})"

@@ -17,9 +17,11 @@ from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted
 from alphamesh.cli.types import ColumnsType
+from alphamesh.cli.weights import weights_of
 from alphamesh.errors import DimensionError, ParameterError
 
 if TYPE_CHECKING:
+    from alphamesh.points import Cloud
     from alphamesh.table import PointTable
 
 __all__ = [
@@ -58,6 +60,7 @@ class InputOptions:
     encoding: str | None = None
     key: str | None = None
     layer: str | None = None
+    weights: str | int | None = None
     # Not an option: the number of coordinates that a command takes if no columns are named.
     dimension: int | None = None
 
@@ -181,13 +184,15 @@ _TABLE_OPTIONS: dict[str, dict[str, Any]] = {
 class Input:
     """A cloud, and where it comes from, for people (`text`) and scripts (`facts`).
 
-    `table` holds other columns of its file and the reference system, if these were read.
+    `table` holds other columns of its file and the reference system, if these were read;
+    `weights` is the column of squared radii of balls, if one was named.
     """
 
     points: NDArray[np.float64]
     text: str
     facts: dict[str, Any]
     table: PointTable | None = None
+    weights: NDArray[Any] | None = None
 
     def placed(self, crs: str) -> Input:
         """Return it with a reference system, which it must not have already, unless the same.
@@ -210,9 +215,14 @@ class Input:
         return replace(self, table=table)
 
     @property
-    def cloud(self) -> PointTable | NDArray[np.float64]:
+    def cloud(self) -> Cloud | PointTable | NDArray[np.float64]:
         """The points with all that is known of them."""
-        return self.points if self.table is None else self.table
+        known = self.points if self.table is None else self.table
+        if self.weights is None:
+            return known
+        from alphamesh.points import as_cloud
+
+        return as_cloud(known, weights=self.weights)
 
 
 def seed_option(command: Function) -> Function:
@@ -271,7 +281,7 @@ def _load(
     if kind == POINTS:
         options.refuse(_SAMPLING, name, "which is a table: its points are taken as they are")
         return _load_table(source, name, options, steps, attributes)
-    options.refuse(_OF_TABLES, name, "which is no table")
+    options.refuse({**_OF_TABLES, "weights": "--weights"}, name, "which is no table")
     if kind == DEMO:
         options.refuse(_OF_IMAGES, name, "a demo shape, which has no shades")
         if demo_solid(source) is not None:
@@ -290,13 +300,15 @@ def _load_table(
     suffix = options.suffix or PurePath(source).suffix.lower()
     if not (attributes or suffix in GEO_FORMATS):
         with steps.step(f"Reading {name}"):
-            return Input(read_points(source, **options.table()), text, facts)
+            points = read_points(source, **options.table())
+            return Input(points, text, facts, None, weights_of(source, options))
     with steps.step(f"Reading {name}"):
         table = read_table(source, **options.table())
+        weights = weights_of(source, options, table)
     if table.crs is not None:
         facts["crs"] = table.crs.to_string()
         text = f"{name} (points in {table.crs.name})"
-    return Input(table.points, text, facts, table)
+    return Input(table.points, text, facts, table, weights)
 
 
 def _load_solid(source: str, options: InputOptions, steps: Steps) -> Input:

@@ -125,6 +125,8 @@ def size_text(size: int) -> str:
     return f"{amount:.3g} GB"
 
 
-def points_text(points: int, duplicates: int) -> str:
-    """Return a number of points, and how many of them repeat others."""
-    return f"{points:,} ({counted(duplicates, 'duplicate')})" if duplicates else f"{points:,}"
+def points_text(points: int, duplicates: int, hidden: int = 0) -> str:
+    """Return a number of points, and how many of them repeat others or are hidden."""
+    besides = [counted(duplicates, "duplicate")] if duplicates else []
+    besides += [f"{hidden:,} hidden"] if hidden else []
+    return f"{points:,} ({', '.join(besides)})" if besides else f"{points:,}"

@@ -17,7 +17,9 @@ __all__ = [
     "RULE_OPTIONS",
     "AggregateType",
     "BettiType",
+    "ColumnType",
     "ColumnsType",
+    "MostRadius",
     "RadiiType",
     "RadiusType",
     "Rule",
@@ -55,7 +57,10 @@ class Rule(NamedTuple):
 
 
 class RadiusType(ParamType):
-    """A radius: a number of at least 0, ``auto``, or a rule, as in ``topology:holes=2``."""
+    """A radius: a number of at least 0, ``auto``, or a rule, as in ``topology:holes=2``.
+
+    With --weights, the number may be negative.
+    """
 
     name = "radius"
 
@@ -75,7 +80,7 @@ class RadiusType(ParamType):
             self.fail(
                 f"{value!r} is neither a number nor one of the rules: {rules}", param, ctx
             )
-        if not radius >= 0:
+        if not (radius >= 0 or (_weighted(ctx) and radius < 0)):
             self.fail(f"{value!r} is not a number of at least 0", param, ctx)
         return radius
 
@@ -99,6 +104,21 @@ class RadiusType(ParamType):
     ) -> list[CompletionItem]:
         """Return the rules that begin so."""
         return _rules_from(incomplete)
+
+
+class MostRadius(ParamType):
+    """A radius up to which something is taken: at least 0, with --weights any number."""
+
+    name = "radius"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """Return the number."""
+        radius: float = click.FLOAT.convert(value, param, ctx)
+        if not (radius >= 0 or (_weighted(ctx) and radius < 0)):
+            self.fail(f"{value!r} is not a number of at least 0", param, ctx)
+        return radius
 
 
 class RuleName(ParamType):
@@ -126,11 +146,17 @@ def _rules_from(start: str) -> list[CompletionItem]:
     return [CompletionItem(name) for name in _known_rules() if name.startswith(start)]
 
 
+def _weighted(ctx: click.Context | None) -> bool:
+    """Return whether --weights is given: then radii may be negative."""
+    return ctx is not None and ctx.params.get("weights") is not None
+
+
 def _known_rules() -> tuple[str, ...]:
     """Return ``auto`` and the names of the rules, those of the plane first."""
     from alphamesh.radius import rule_names
 
-    return (AUTO, *dict.fromkeys(rule_names(2) + rule_names(3)))
+    names = rule_names(2) + rule_names(3) + rule_names(weighted=True)
+    return (AUTO, *dict.fromkeys(names))
 
 
 class RadiiType(ParamType):
@@ -155,7 +181,8 @@ class RadiiType(ParamType):
                 param,
                 ctx,
             )
-        if not all(0 <= radius < float("inf") for radius in radii):
+        least = -float("inf") if _weighted(ctx) else 0.0
+        if not all(least <= radius < float("inf") for radius in radii):
             self.fail(f"{value!r} holds a number that is no finite radius", param, ctx)
         return radii
 
@@ -211,6 +238,21 @@ class ColumnsType(ParamType):
         if len(names) not in {2, 3} or not all(names):
             self.fail(f"{value!r} is not two or three columns, such as x,y or 0,1,2")
         return tuple(int(name) if name.isdigit() else name for name in names)
+
+
+class ColumnType(ParamType):
+    """One column, by name or by number counted from 0."""
+
+    name = "column"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> str | int:
+        """Return the name or the number."""
+        name = str(value).strip()
+        if not name:
+            self.fail("name a column, or give its number, counted from 0", param, ctx)
+        return int(name) if name.isdigit() else name
 
 
 class SizeType(ParamType):

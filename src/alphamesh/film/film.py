@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from alphamesh._weights import refuse_weights
 from alphamesh.errors import (
     FileWriteError,
     MissingLibraryError,
@@ -111,6 +112,8 @@ def animate(  # noqa: PLR0913 (all but two are options)
         If the extension is unknown, the file cannot be written, or ffmpeg is missing.
     MissingLibraryError
         If matplotlib or Pillow is not installed.
+    UnweightedOnlyError
+        If the points have weights.
 
     Notes
     -----
@@ -126,6 +129,7 @@ def animate(  # noqa: PLR0913 (all but two are options)
     _check_numbers(fps, hold, width)
     need_writer(suffix)
     pairs = _persistence_of(source)
+    refuse_weights(pairs.filtration.weights, "films", "draw pictures with cx.at(radius).plot()")
     degrees = _checked_turn(turn, pairs.filtration)
     chosen = film_radii(pairs, radii, frames)
     view = _view(pairs, chosen, int(width), degrees)

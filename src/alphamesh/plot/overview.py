@@ -11,6 +11,7 @@ from alphamesh.plot.overview3d import plot_overview_in_space
 from alphamesh.plot.panels import (
     add_legend,
     add_title,
+    cloud_text,
     complex_text,
     counted,
     filtration_of,
@@ -60,14 +61,6 @@ def plot_overview(source: Filtration | HasFiltration, radius: float | None = Non
     add_title(right, f"Alpha complex, radius {radius:.4g}", complex_text(shape))
     add_legend(figure, right, drawing.artists)
     return figure
-
-
-def cloud_text(filtration: Filtration) -> str:
-    """Return how many points there are."""
-    points = len(filtration.points)
-    duplicates = points - len(filtration.simplices[0])
-    text = counted(points, "point")
-    return f"{text}, {counted(duplicates, 'duplicate')}" if duplicates else text
 
 
 def delaunay_text(filtration: Filtration) -> str:

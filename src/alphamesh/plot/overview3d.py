@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 
 from alphamesh.plot.drawing import Drawing, new_figure
-from alphamesh.plot.panels import add_title, counted, panels
+from alphamesh.plot.panels import add_title, cloud_text, counted, panels
 from alphamesh.plot.scene import Camera, frame_of, hazed
 from alphamesh.plot.solids import VIEW, plot_solid
 from alphamesh.plot.style import COLORS
@@ -106,11 +106,7 @@ def plot_shape_in_space(shape: SolidShape) -> Figure:
     filtration = shape.filtration
     figure, (left, middle, right) = panels(_SQUARE, 3)
     plot_cloud_in_space(filtration.points, left)
-    duplicates = len(filtration.points) - len(filtration.simplices[0])
-    text = counted(len(filtration.points), "point")
-    add_title(
-        left, "Cloud", f"{text}, {counted(duplicates, 'duplicate')}" if duplicates else text
-    )
+    add_title(left, "Cloud", cloud_text(filtration))
     plot_solid(shape, middle)
     counts = shape.counts
     lone = counts["singular_triangles"]

@@ -26,6 +26,7 @@ __all__ = [
     "HasFiltration",
     "add_legend",
     "add_title",
+    "cloud_text",
     "complex_text",
     "counted",
     "filtration_of",
@@ -149,6 +150,16 @@ def counted(number: int, singular: str, plural: str | None = None) -> str:
     """Return a number with its noun."""
     name = singular if number == 1 else plural or f"{singular}s"
     return f"{number:,} {name}"
+
+
+def cloud_text(filtration: Filtration | Filtration3D) -> str:
+    """Return how many points there are."""
+    points = len(filtration.points)
+    hidden = len(filtration.hidden)
+    duplicates = points - len(filtration.simplices[0]) - hidden
+    text = counted(points, "point")
+    text = f"{text}, {counted(duplicates, 'duplicate')}" if duplicates else text
+    return f"{text}, {hidden:,} hidden" if hidden else text
 
 
 def complex_text(shape: AlphaShape) -> str:

@@ -59,19 +59,21 @@ def plot_diagram(
     """
     chart = Chart(ax, "birth radius", "death radius")
     diagrams = persistence.diagrams()
-    top = _top(diagrams, radius)
-    chart.line("diagonal", [0, top], [0, top], 0.8)
-    above = 1.06 * top
+    low, top = _ends(diagrams, radius)
+    span = top - low
+    chart.line("diagonal", [low, top], [low, top], 0.8)
+    above = top + 0.06 * span
     if any(np.isinf(rows[:, 1]).any() for rows in diagrams):
-        chart.line("diagonal", [0, top], [above, above], 0.8, style=(0, (4, 3)))
+        chart.line("diagonal", [low, top], [above, above], 0.8, style=(0, (4, 3)))
         chart.note("never ends", (top, above), (0, 4), "right")
     for role, rows in zip(_ROLES[len(diagrams)], diagrams, strict=True):
         marks = np.where(np.isinf(rows), above, rows)
-        chart.marks(role, _apart(marks, top), 3.4)
+        chart.marks(role, _apart(marks, low, top), 3.4)
     if radius is not None:
-        chart.line("radius", [0, radius, radius], [radius, radius, above], 1.2)
+        chart.line("radius", [low, radius, radius], [radius, radius, above], 1.2)
         chart.note(f"r = {radius:.4g}", (radius, radius), (6, -4), "left", "radius")
-    chart.limits((-0.03 * top, 1.03 * top), (-0.03 * top, 1.13 * top))
+    below = low - 0.03 * span
+    chart.limits((below, top + 0.03 * span), (below, top + 0.13 * span))
     chart.ax.set_aspect("equal")
     chart.legend(_SINGULAR, "lower right")
     return chart.drawing()
@@ -113,7 +115,8 @@ def plot_barcode(
         raise ParameterError(f"most must be a whole number of at least 1; got {most!r}")
     chart = Chart(ax, "radius", "")
     diagrams = persistence.diagrams()
-    top = 1.08 * _top(diagrams, radius)
+    low, top = _ends(diagrams, radius)
+    top += 0.08 * (top - low)
     level = 0
     for role, rows in zip(_ROLES[len(diagrams)], diagrams, strict=True):
         order = np.argsort(rows[:, 0] - rows[:, 1], kind="stable")
@@ -128,7 +131,7 @@ def plot_barcode(
     if radius is not None:
         chart.line("radius", [radius, radius], [2, 1 - level], 1.2)
         chart.note(f"r = {radius:.4g}", (radius, 2), (4, -2), "left", "radius")
-    chart.limits((0, top), (1 - level, 4))
+    chart.limits((low, top), (1 - level, 4))
     chart.ax.set_yticks([])
     chart.ax.spines["left"].set_visible(False)
     # Beside short bars: holes often come late, and voids later still.
@@ -172,7 +175,8 @@ def plot_betti(
     Drawing
         With the artists ``"components"``, ``"holes"`` and ``"radius"``; in space with
         ``"loops"`` and ``"voids"`` for holes. Both axes are logarithmic, as most changes
-        come at small radii. Steps closer than a pixel are drawn as one.
+        come at small radii, but that of radii that may be negative, with weights. Steps
+        closer than a pixel are drawn as one.
     """
     chart = Chart(ax, "radius", "how many")
     shown = betti_range(persistence)
@@ -188,12 +192,14 @@ def add_betti_curves(
     """Draw Betti curves from radius to radius on logarithmic axes; return the upper end."""
     low, high = shown
     radii, numbers = persistence.betti_curve()
-    chart.ax.set_xscale("log")
+    linear = persistence.filtration.weights is not None
+    if not linear:
+        chart.ax.set_xscale("log")
     # Linear up to 1, so that none and one have a place of their own.
     chart.ax.set_yscale("symlog", linthresh=1, linscale=0.5)
     roles = _ROLES[numbers.shape[1]]
     for column, role in enumerate(roles):
-        x, y = _steps(radii, numbers[:, column], low)
+        x, y = _steps(radii, numbers[:, column], low, linear=linear)
         (line,) = chart.ax.step(
             np.append(x, max(high, x[-1])),
             np.append(y, y[-1]),
@@ -222,7 +228,8 @@ def _mark(
     low, high = shown
     marked = min(max(radius, low), high)
     chart.line("radius", [marked, marked], [0, top], 1.2)
-    left = marked * marked < low * high
+    linear = persistence.filtration.weights is not None
+    left = 2 * marked < low + high if linear else marked * marked < low * high
     text = f"r = {radius:.4g}: {betti_text(*persistence.betti_numbers(radius).tolist())}"
     offset, align = ((4, -26), "left") if left else ((-4, -26), "right")
     chart.note(text, (marked, top), offset, align, "radius")
@@ -237,8 +244,12 @@ def betti_text(*numbers: int) -> str:
 
 
 def betti_range(persistence: Persistence) -> tuple[float, float]:
-    """Return from where to where Betti numbers are worth a look, both positive."""
-    radii = persistence.betti_curve().radii[1:]
+    """Return from where to where Betti numbers are worth a look: without weights, positive."""
+    radii = persistence.betti_curve().radii
+    if persistence.filtration.weights is not None:
+        around = 0.05 * float(np.ptp(radii)) or 1.0
+        return float(radii[0]) - around, float(radii[-1]) + around
+    radii = radii[1:]
     positive = radii[radii > 0]
     if len(positive) == 0:
         return 0.1, 10.0
@@ -246,28 +257,36 @@ def betti_range(persistence: Persistence) -> tuple[float, float]:
     return low, max(1.3 * float(positive[-1]), 2 * low)
 
 
-def _top(diagrams: tuple[NDArray[np.float64], ...], radius: float | None) -> float:
-    """Return the largest radius that a chart must show, more than 0."""
-    finite = [rows[np.isfinite(rows)].max(initial=0.0) for rows in diagrams]
-    top = 1.05 * float(max(*finite, radius or 0.0))
-    return top or 1.0
+def _ends(
+    diagrams: tuple[NDArray[np.float64], ...], radius: float | None
+) -> tuple[float, float]:
+    """Return the range of radii that a chart must show: from 0 on, unless some are negative."""
+    finite = [rows[np.isfinite(rows)] for rows in diagrams]
+    low = float(min(*(rows.min(initial=0.0) for rows in finite), radius or 0.0))
+    top = float(max(*(rows.max(initial=0.0) for rows in finite), radius or 0.0))
+    if low == 0:
+        return 0.0, 1.05 * top or 1.0
+    return low, top + 0.05 * (top - low)
 
 
-def _apart(marks: NDArray[np.float64], top: float) -> NDArray[np.float64]:
+def _apart(marks: NDArray[np.float64], low: float, top: float) -> NDArray[np.float64]:
     """Return one of the marks for each place that the eye can tell apart."""
-    places = np.floor(marks / top * _CELLS).astype(np.int64)
+    places = np.floor((marks - low) / (top - low) * _CELLS).astype(np.int64)
     _, kept = np.unique(places[:, 0] * (2 * _CELLS) + places[:, 1], return_index=True)
     return marks.take(np.sort(kept), axis=0)
 
 
 def _steps(
-    radii: NDArray[np.float64], numbers: NDArray[np.integer], low: float
+    radii: NDArray[np.float64], numbers: NDArray[np.integer], low: float, *, linear: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
     """Return the steps from `low` on, thinned to the first and last in each pixel."""
     start = max(int(np.searchsorted(radii, low, side="right")) - 1, 0)
     x, y = np.maximum(radii[start:], low), numbers[start:]
+    if radii[0] > low:  # with weights, nothing is there at first
+        x, y = np.append(low, x), np.append(0, y)
     if len(x) > 2 * _CELLS:
-        place = (np.log(x / low) * (_CELLS / np.log(x[-1] / low))).astype(np.int64)
+        along = x - low if linear else np.log(x / low)
+        place = (along * (_CELLS / along[-1])).astype(np.int64)
         new = np.append(True, np.diff(place) > 0)
         kept = new | np.append(new[1:], True)
         x, y = x[kept], y[kept]

@@ -6,6 +6,7 @@ from alphamesh.radius import (
     _all_points,
     _cell_count,
     _enclosed,
+    _given_balls,
     _longest_interval,
     _regions,
     _topology,
@@ -25,5 +26,6 @@ __all__ = [
 ]
 
 _RULE_MODULES = (
-    _all_points, _cell_count, _enclosed, _longest_interval, _regions, _topology,
+    _all_points, _cell_count, _enclosed, _given_balls, _longest_interval, _regions,
+    _topology,
 )  # fmt: skip

@@ -16,11 +16,12 @@ if TYPE_CHECKING:
 __all__ = ["covered_from"]
 
 
-@radius_rule("all-points")
+@radius_rule("all-points", balls="any")
 def _all_points(filtration: AnyFiltration) -> RadiusChoice:
     """Choose the smallest radius at which no point is left out of the cells."""
     if filtration.dimension == 0:
-        return _choice(0.0, "All points are at one place: nothing is left out.")
+        there = float(filtration.radii[0].max())
+        return _choice(there, "All points are at one place: nothing is left out.")
     covered = covered_from(filtration)
     last = int(covered.argmax())
     row = int(filtration.simplices[0][last, 0])
@@ -29,7 +30,8 @@ def _all_points(filtration: AnyFiltration) -> RadiusChoice:
     dimension, columns = filtration.dimension, filtration.points.shape[1]
     joined = "joined to another by" if dimension == 1 else "a corner of"
     flat = flat_text(f"The {count} points", dimension, columns)
-    each = "each point" if flat else f"each of the {count} points"
+    seen = "points that are not hidden" if len(filtration.hidden) else "points"
+    each = "each point" if flat else f"each of the {count} {seen}"
     reason = (
         f"{flat}This is the smallest radius at which {each} is {joined} "
         f"{CELLS[dimension][0]}; any smaller one leaves out {last_point}."

@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from alphamesh.filtration3d import Filtration3D
 
 
-@radius_rule("triangle-count", columns=(2,))
+@radius_rule("triangle-count", columns=(2,), balls="any")
 def _triangle_count(filtration: Filtration, *, triangles: int | None = None) -> RadiusChoice:
     """Choose the smallest radius at which there are at least `triangles` triangles."""
     return _cell_count(filtration.radii[2], "triangle-count", "triangles", triangles)
 
 
-@radius_rule("tetrahedron-count", columns=(3,))
+@radius_rule("tetrahedron-count", columns=(3,), balls="any")
 def _tetrahedron_count(
     filtration: Filtration3D, *, tetrahedra: int | None = None
 ) -> RadiusChoice:

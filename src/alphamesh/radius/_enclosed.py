@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _OUTSIDE = -1
 
 
-@radius_rule("enclosed", columns=(3,))
+@radius_rule("enclosed", columns=(3,), balls="any")
 def _enclosed(filtration: Filtration3D, share: float = 1.0) -> RadiusChoice:
     """Choose the smallest radius at which the complex, voids filled, holds the points."""
     if not isinstance(share, Real) or not 0 < share <= 1:

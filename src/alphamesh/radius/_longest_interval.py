@@ -15,14 +15,15 @@ if TYPE_CHECKING:
     from alphamesh.filtration import Filtration
 
 
-@radius_rule("longest-interval", columns=(2,))
+@radius_rule("longest-interval", columns=(2,), balls="any")
 def _longest_interval(filtration: Filtration) -> RadiusChoice:
     """Choose the middle of the widest range without a change, before all becomes one."""
     radii, numbers = persistence(filtration).betti_curve()
     if len(radii) == 1:
-        return RadiusChoice(
-            0.0, "longest-interval", "All points are at one place: nothing ever changes."
-        )
+        reason = "There is one component from the first point on: nothing ever changes."
+        if filtration.dimension == 0:
+            reason = "All points are at one place: nothing ever changes."
+        return RadiusChoice(float(radii[0]), "longest-interval", reason)
     # Halves do not overflow.
     widest = int(np.argmax(radii[1:] / 2 - radii[:-1] / 2))
     low, high = radii[widest : widest + 2].tolist()

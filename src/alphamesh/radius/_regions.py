@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 __all__ = ["region_events"]
 
 
-@radius_rule("one-region")
+@radius_rule("one-region", balls="any")
 def _one_region(filtration: AnyFiltration) -> RadiusChoice:
     """Choose the smallest radius at which all points are in one piece."""
     return _few_regions(filtration, 1, "one-region")
 
 
-@radius_rule("regions")
+@radius_rule("regions", balls="any")
 def _regions(filtration: AnyFiltration, *, regions: int = 1) -> RadiusChoice:
     """Choose the smallest radius at which all points are in at most `regions` pieces."""
     return _few_regions(filtration, whole_number("regions", regions, 1), "regions")
@@ -35,7 +35,9 @@ def _regions(filtration: AnyFiltration, *, regions: int = 1) -> RadiusChoice:
 
 def _few_regions(filtration: AnyFiltration, most: int, rule: str) -> RadiusChoice:
     if filtration.dimension == 0:
-        return RadiusChoice(0.0, rule, "All points are at one place: one piece at any radius.")
+        there = float(filtration.radii[0].max())
+        when = "at any radius" if filtration.weights is None else "from here on"
+        return RadiusChoice(there, rule, f"All points are at one place: one piece {when}.")
     begins, ends = region_events(filtration)
     covered = float(covered_from(filtration).max())
     # The number of pieces changes only where one begins or two meet.
@@ -62,7 +64,7 @@ def region_events(filtration: AnyFiltration) -> tuple[FloatArray, FloatArray]:
     """
     dimension = filtration.dimension
     if dimension == 1:
-        return filtration.radii[0], np.sort(filtration.radii[1])
+        return np.sort(filtration.radii[0]), np.sort(filtration.radii[1])
     radii = filtration.radii[dimension]
     cofaces = _cofaces(filtration)
     inner = cofaces.compress(cofaces[:, 1] >= 0, axis=0)

@@ -54,9 +54,12 @@ def complex_card(
         name: f"{len(simplices):,}"
         for name, simplices in zip(_NAMES, filtration.simplices, strict=False)
     }
-    duplicates = len(filtration.points) - len(filtration.simplices[0])
+    hidden = len(filtration.hidden)
+    duplicates = len(filtration.points) - len(filtration.simplices[0]) - hidden
     if duplicates:
         facts["duplicates"] = f"{duplicates:,}"
+    if hidden:
+        facts["hidden points"] = f"{hidden:,}"
     if choice is None or shape is None:
         return _card("AlphaComplex", facts, "")
     facts["chosen radius"] = f"{choice.radius:.6g}, rule {choice.rule}"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from alphamesh._weights import refuse_weights
 from alphamesh.betti import checked_radii
 from alphamesh.delaunay3d import outward_triangles
 from alphamesh.errors import ParameterError
@@ -64,10 +65,15 @@ def payload(
     ------
     ParameterError
         If `radius` or `title` is not what it must be.
+    UnweightedOnlyError
+        If the points have weights.
     """
     if title is not None and not isinstance(title, str):
         raise ParameterError(f"title must be text; got {title!r}")
     filtration = persistence.filtration
+    refuse_weights(
+        filtration.weights, "interactive views", "draw pictures with cx.at(radius).plot()"
+    )
     positions, placing = _positions(filtration)
     meta = {
         "title": title or _TITLE,
