@@ -158,5 +158,6 @@ NB_MODULE(_core, m) {
   bind_space3(m);
   bind_surface3(m);
   bind_voronoi2(m);
+  m.def("trim_memory", &trim_memory);
   m.def("self_test", &self_test);
 }

@@ -57,6 +57,7 @@ void run_watched(Job& job, std::size_t size, const nb::object& progress, Work&& 
   bool done = false;
   std::exception_ptr error;
   auto watched = [&] {
+    prepare_to_throw();
     try {
       work();
     } catch (...) {

@@ -11,8 +11,7 @@ namespace alphamesh {
 // Memory of at least one byte; release() takes the same number of bytes.
 void* allocate(std::size_t bytes);
 void release(void* p, std::size_t bytes) noexcept;
-// Takes `bytes` of memory, gives back `more` that begin with the same; without a copy where
-// the system can.
+// Takes `bytes` of memory, gives back `more` that begin with the same.
 void* enlarge(void* p, std::size_t bytes, std::size_t more);
 
 // Asks for the memory at p ahead of its use; changes no result.
@@ -24,9 +23,10 @@ inline void prefetch(const void* p) {
 #endif
 }
 
-// Touching fresh pages costs a fifth to a third of a run on large clouds. While an object
-// of this class lives, large blocks that are released are kept and given out again, in
-// parts if need be; with the last one they go back to the system.
+// Touching fresh pages costs a fifth to a half of a run on large clouds. While an object of
+// this class lives, large blocks that are released are kept and given out again, in parts if
+// need be. With the last one they are lent to the system, which takes the pages that it
+// needs; those that it leaves serve the next call.
 class Recycling {
  public:
   Recycling() noexcept;
@@ -34,6 +34,9 @@ class Recycling {
   Recycling(const Recycling&) = delete;
   Recycling& operator=(const Recycling&) = delete;
 };
+
+// Gives back all that is kept and not in use.
+void trim_memory() noexcept;
 
 template <class T>
 class Buffer {

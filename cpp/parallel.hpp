@@ -16,6 +16,10 @@ struct Cancelled : std::exception {
   const char* what() const noexcept override { return "cancelled"; }
 };
 
+// The first exception of a thread needs memory, and without it the process ends: threads get
+// that memory when they start, not when there may be none left.
+inline void prepare_to_throw() { static_cast<void>(std::current_exception()); }
+
 class Job {
  public:
   explicit Job(int threads) : threads_(std::max(1, threads)) {}
@@ -43,6 +47,7 @@ class Job {
     std::exception_ptr error;
     std::mutex lock;
     auto loop = [&] {
+      prepare_to_throw();
       try {
         for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
           poll();
