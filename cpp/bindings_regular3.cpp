@@ -19,8 +19,10 @@ nb::tuple regular3_py(const Points3& points, const Values& weights, int threads,
   SpatialOrder3 order;
   RegularFiltration3 r;
   run_watched(job, n, progress, [&] {
-    order = spatial_order<Space>(points.data(), n, job, weights.data());
-    r = regular_filtration3(order, weights.data(), n, job);
+    order = spatial_order3(points.data(), n, job, weights.data());
+    const std::int32_t* representative =
+        order.representative.size() == 0 ? nullptr : order.representative.data();
+    r = regular_filtration3(order, {weights.data(), representative, n}, job);
   });
   Filtration3& f = r.simplices;
   const nb::object representative =

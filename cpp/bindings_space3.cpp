@@ -33,15 +33,7 @@ Filtration3 flat_filtration(const SpatialOrder3& order, const std::vector<std::i
                             Job& job) {
   SpatialOrder<Sheet> sheet = sheet_of(order, span, job);
   Mesh2 mesh = delaunay2(sheet, job);
-  Filtration2 flat = filtration2(sheet, mesh, job);
-  Filtration3 f;
-  f.triangle_tetrahedra = Buffer<std::int32_t>(2 * flat.triangle_radii.size());
-  std::fill(f.triangle_tetrahedra.begin(), f.triangle_tetrahedra.end(), -1);
-  f.triangles = std::move(flat.triangles);
-  f.triangle_radii = std::move(flat.triangle_radii);
-  f.edges = std::move(flat.edges);
-  f.edge_radii = std::move(flat.edge_radii);
-  return f;
+  return in_space(filtration2(sheet, mesh, job));
 }
 
 // The dimension of the cloud, and the simplices that it has: of a cloud in a plane the

@@ -228,6 +228,17 @@ void write_rows(const SpatialOrder3& order, Compact3& mesh, Job& job) {
   });
 }
 
+Filtration3 in_space(Filtration2&& flat) {
+  Filtration3 f;
+  f.triangle_tetrahedra = Buffer<Id>(2 * flat.triangle_radii.size());
+  std::fill(f.triangle_tetrahedra.begin(), f.triangle_tetrahedra.end(), -1);
+  f.triangles = std::move(flat.triangles);
+  f.triangle_radii = std::move(flat.triangle_radii);
+  f.edges = std::move(flat.edges);
+  f.edge_radii = std::move(flat.edge_radii);
+  return f;
+}
+
 template <class Rule>
 Filtration3 filtration3(const SpatialOrder3& order, Compact3&& compact, Rule& rule, Job& job) {
   Filtration3 out;

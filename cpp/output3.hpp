@@ -6,6 +6,7 @@
 
 #include "compact3.hpp"
 #include "memory.hpp"
+#include "output2.hpp"
 #include "parallel.hpp"
 #include "spatial_sort.hpp"
 
@@ -25,6 +26,9 @@ struct Filtration3 {
   Buffer<std::int32_t> edges;                // (E, 2)
   Buffer<double> edge_radii;                 // (E,)
 };
+
+// That of a cloud in a plane: triangles without tetrahedra.
+Filtration3 in_space(Filtration2&& flat);
 
 // The alpha filtration (Edelsbrunner & Muecke 1994), see Filtration2.
 Filtration3 filtration3(const SpatialOrder3& order, Compact3&& mesh, Job& job);

@@ -6,6 +6,7 @@
 
 #include "output3.hpp"
 #include "parallel.hpp"
+#include "regular2.hpp"
 #include "spatial_sort.hpp"
 #include "vertex_rows.hpp"
 
@@ -20,8 +21,8 @@ struct RegularFiltration3 {
   VertexRows vertices;
 };
 
-// `order` has weights; `weights` and n are those of the input's rows.
-RegularFiltration3 regular_filtration3(const SpatialOrder3& order, const double* weights,
-                                       std::size_t n, Job& job);
+// `order` has weights.
+RegularFiltration3 regular_filtration3(const SpatialOrder3& order, const WeightedRows& rows,
+                                       Job& job);
 
 }  // namespace alphamesh

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from alphamesh._kernels import _core
+from oracles_weighted import relative_error, weighted_complex
 from space_core import WEIGHTED, alpha3, regular3, row_set
 from weighted_space import check_weighted_cloud, nasty_weighted_cloud, simplices_of
 
@@ -186,3 +187,31 @@ def test_bad_numbers():
     weights[3:5] = 1e300, 1e-300
     with pytest.raises(_core.BadCoordinates):
         regular3(points, weights)
+
+
+def flat_cloud(seed):
+    """Return up to eight integer points in a plane or on a line of space, and weights."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(0, 9))
+    dimension = seed % 3
+    base = rng.integers(-3, 4, (dimension, 3))
+    points = rng.integers(-3, 4, (n, dimension)) @ base + rng.integers(-5, 6, 3)
+    weights = rng.integers(-2, 3, n) * rng.choice([0, 1, 20])
+    if seed % 2:
+        weights += (points**2).sum(axis=1)  # all tied, or nearly
+    return points.astype(float), weights.astype(float)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_flat_clouds_by_the_definition(seed):
+    points, weights = flat_cloud(seed)
+    result, expected = regular3(points, weights), weighted_complex(points, weights)
+    assert result["dimension"] == expected.dimension
+    if result["representative"] is not None:
+        assert result["representative"].tolist() == expected.representative
+    assert result["hidden"].tolist() == expected.hidden
+    radii = simplices_of(result)
+    assert radii.keys() == expected.powers.keys()
+    for s, power in expected.powers.items():
+        assert relative_error(radii[s], power) < 1e-13, s
+    assert (result["triangle_tetrahedra"] == -1).all()
