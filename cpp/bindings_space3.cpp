@@ -78,8 +78,7 @@ nb::tuple delaunay3_py(const Points3& points, int threads, const nb::object& pro
     const std::vector<std::int32_t> span = spanning_points(order, job);
     dimension = static_cast<int>(span.size()) - 1;
     if (dimension != 3) return;
-    compact = compact3(order, delaunay3(order, span, job), job);
-    write_rows(order, compact, job);
+    compact = rows3(order, delaunay3(order, span, job), job);
   });
   return nb::make_tuple(dimension, representative_of(order), array(std::move(compact.vertex), 4),
                         array(std::move(compact.neighbor), 4));

@@ -71,123 +71,166 @@ void lexicographic_ranks(const Point3* p, const Id* vertex, int* rank) {
   }
 }
 
+// What becomes of a tetrahedron's vertices, and which of them faces a neighbour.
+enum class Form {
+  kFacets,  // numbers along the curve, in lexicographic order; neighbours as 4t + i
+  kRows     // rows of the input, ascending; neighbours as t
+};
+
+template <Form kForm>
 class Compactor {
  public:
   Compactor(const SpatialOrder3& order, Mesh3&& mesh, Job& job)
-      : p_(order.points.data()), n_(order.size), mesh_(std::move(mesh)), job_(job) {
-    while (((n_ - 1) >> shift_) >= kParts) ++shift_;
-  }
+      : p_(order.points.data()),
+        row_(order.row.data()),
+        n_(order.size),
+        mesh_(std::move(mesh)),
+        job_(job),
+        slots_(mesh_.slots, job) {}
   Compact3 run();
 
  private:
-  static constexpr std::size_t kParts = 64;
-
-  void chain();
-  void settle(std::size_t part, std::vector<Rest>& bucket);
+  void count();
+  void add_up();
+  void distribute();
+  void settle(std::size_t lo, std::size_t hi);
   void write(std::size_t t, Id slot);
   void connect();
 
   const Point3* p_;
+  const Id* row_;
   std::size_t n_;
   Mesh3 mesh_;
   Job& job_;
-  int shift_ = 0;  // vertex v belongs to part v >> shift_
-  std::size_t first_[kParts + 1] = {};
-  std::vector<std::atomic<Id>> head_;  // per vertex: a slot of which it is the first one
-  Buffer<Id> id_;                      // per slot: the next in the chain, then its row; -1: none
-  Buffer<std::uint8_t> moved_;         // per slot: where its vertices have gone, two bits each
+  Parts slots_;
+  std::vector<std::atomic<Id>> start_;  // per vertex: how many have it, later a lower one, first
+  Buffer<Id> id_;                       // per slot: rank in its bucket, then its row; -1: none
+  Buffer<Id> slot_;                     // slots by first vertex
+  Buffer<std::uint8_t> moved_;          // per slot: where its vertices have gone, two bits each
   Compact3 out_;
 };
 
-// Chains the tetrahedra by their first vertices, in whatever order, and counts them.
-void Compactor::chain() {
-  head_ = std::vector<std::atomic<Id>>(n_);
+// Counts the tetrahedra by their first vertices, in whatever order they come.
+template <Form kForm>
+void Compactor<kForm>::count() {
+  start_ = std::vector<std::atomic<Id>>(n_ + 1);
   id_ = Buffer<Id>(mesh_.slots);
-  const Parts vertices(n_, job_), slots(mesh_.slots, job_);
-  job_.run(vertices.count(), [&](std::size_t part) {
-    for (std::size_t v = vertices.begin(part); v < vertices.end(part); ++v) {
-      head_[v].store(-1, std::memory_order_relaxed);
-    }
-  });
-  std::vector<std::size_t> count(slots.count() * kParts, 0);
+  for (std::atomic<Id>& bucket : start_) bucket.store(0, std::memory_order_relaxed);
   const bool alone = job_.threads() == 1;
-  job_.run(slots.count(), [&](std::size_t part) {
-    std::size_t mine[kParts] = {};
-    for (std::size_t s = slots.begin(part); s < slots.end(part); ++s) {
+  job_.run(slots_.count(), [&](std::size_t part) {
+    for (std::size_t s = slots_.begin(part); s < slots_.end(part); ++s) {
       const Tetrahedron& t = mesh_.slot[s];
       if (!is_real(t, mesh_.infinity)) {
         id_[s] = -1;
         continue;
       }
-      const std::size_t v = place(first_vertex(t));
-      ++mine[v >> shift_];
-      std::atomic<Id>& head = head_[v];
-      const Id slot = static_cast<Id>(s);
+      std::atomic<Id>& bucket = start_[place(first_vertex(t))];
       if (alone) {
-        id_[s] = head.load(std::memory_order_relaxed);
-        head.store(slot, std::memory_order_relaxed);
+        id_[s] = bucket.load(std::memory_order_relaxed);
+        bucket.store(id_[s] + 1, std::memory_order_relaxed);
       } else {
-        id_[s] = head.exchange(slot, std::memory_order_relaxed);
+        id_[s] = bucket.fetch_add(1, std::memory_order_relaxed);
       }
     }
-    std::copy(mine, mine + kParts, &count[part * kParts]);
   });
-  for (std::size_t part = 0; part < kParts; ++part) {
-    first_[part + 1] = first_[part];
-    for (std::size_t k = 0; k < slots.count(); ++k) first_[part + 1] += count[k * kParts + part];
-  }
 }
 
-// Numbers the tetrahedra of a part and writes them, their neighbours as slots still.
-void Compactor::settle(std::size_t part, std::vector<Rest>& bucket) {
-  const std::size_t lo = part << shift_, hi = std::min(n_, (part + 1) << shift_);
-  std::size_t t = first_[part];
+// Turns counts into the beginnings of buckets.
+template <Form kForm>
+void Compactor<kForm>::add_up() {
+  Id sum = 0;
+  for (std::size_t v = 0; v <= n_; ++v) {
+    const Id here = start_[v].load(std::memory_order_relaxed);
+    start_[v].store(sum, std::memory_order_relaxed);
+    sum += here;
+  }
+  out_.count = place(sum);
+}
+
+template <Form kForm>
+void Compactor<kForm>::distribute() {
+  slot_ = Buffer<Id>(out_.count);
+  job_.run(slots_.count(), [&](std::size_t part) {
+    for (std::size_t s = slots_.begin(part); s < slots_.end(part); ++s) {
+      if (id_[s] < 0) continue;
+      const std::atomic<Id>& bucket = start_[place(first_vertex(mesh_.slot[s]))];
+      slot_[place(bucket.load(std::memory_order_relaxed) + id_[s])] = static_cast<Id>(s);
+    }
+  });
+}
+
+// Sorts the tetrahedra of some first vertices and writes them, their neighbours as slots
+// still.
+template <Form kForm>
+void Compactor<kForm>::settle(std::size_t lo, std::size_t hi) {
+  constexpr std::size_t kAhead = 24;
+  std::vector<Rest> bucket;
   for (std::size_t v = lo; v < hi; ++v) {
+    const std::size_t begin = place(start_[v].load(std::memory_order_relaxed));
+    const std::size_t end = place(start_[v + 1].load(std::memory_order_relaxed));
     bucket.clear();
-    for (Id s = head_[v].load(std::memory_order_relaxed); s >= 0; s = id_[place(s)]) {
-      bucket.emplace_back(mesh_.slot[place(s)], s);
+    for (std::size_t t = begin; t < end; ++t) {
+      prefetch(&mesh_.slot[place(slot_[std::min(t + kAhead, out_.count - 1)])]);
+      bucket.emplace_back(mesh_.slot[place(slot_[t])], slot_[t]);
     }
     std::sort(bucket.begin(), bucket.end());
+    std::size_t t = begin;
     for (const Rest& r : bucket) write(t++, r.slot);
   }
 }
 
-void Compactor::write(std::size_t t, Id slot) {
+template <Form kForm>
+void Compactor<kForm>::write(std::size_t t, Id slot) {
   const Tetrahedron& from = mesh_.slot[place(slot)];
   int rank[4];
-  lexicographic_ranks(p_, from.vertex, rank);
+  if (kForm == Form::kFacets) {
+    lexicographic_ranks(p_, from.vertex, rank);
+    moved_[place(slot)] =
+        static_cast<std::uint8_t>(rank[0] | (rank[1] << 2) | (rank[2] << 4) | (rank[3] << 6));
+  }
+  Id v[4];
+  std::copy(from.vertex, from.vertex + 4, v);
+  if (kForm == Form::kRows) {
+    for (Id& vertex : v) vertex = row_[vertex];
+    count_smaller(v, rank, [](Id a, Id b) { return a < b; });
+  }
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t to = 4 * t + static_cast<std::size_t>(rank[k]);
-    out_.vertex[to] = from.vertex[k];
+    out_.vertex[to] = v[k];
     out_.neighbor[to] = from.neighbor[k];
   }
   id_[place(slot)] = static_cast<Id>(t);
-  moved_[place(slot)] =
-      static_cast<std::uint8_t>(rank[0] | (rank[1] << 2) | (rank[2] << 4) | (rank[3] << 6));
 }
 
 // Turns slots into rows.
-void Compactor::connect() {
+template <Form kForm>
+void Compactor<kForm>::connect() {
   const Parts rows(out_.count, job_);
   job_.run(rows.count(), [&](std::size_t part) {
     for (std::size_t i = 4 * rows.begin(part); i < 4 * rows.end(part); ++i) {
       const Id code = out_.neighbor[i], row = id_[place(code >> 2)];
+      if (kForm == Form::kRows) {
+        out_.neighbor[i] = row;
+        continue;
+      }
       const int position = (moved_[place(code >> 2)] >> (2 * (code & 3))) & 3;
       out_.neighbor[i] = row < 0 ? -1 : 4 * row + position;
     }
   });
 }
 
-Compact3 Compactor::run() {
-  chain();
-  moved_ = Buffer<std::uint8_t>(mesh_.slots);
-  out_.count = first_[kParts];
+template <Form kForm>
+Compact3 Compactor<kForm>::run() {
+  count();
+  add_up();
+  distribute();
+  if (kForm == Form::kFacets) moved_ = Buffer<std::uint8_t>(mesh_.slots);
   out_.vertex = Buffer<Id>(4 * out_.count);
   out_.neighbor = Buffer<Id>(4 * out_.count);
-  job_.run(kParts, [&](std::size_t part) {
-    std::vector<Rest> bucket;
-    settle(part, bucket);
-  });
+  const Parts vertices(n_, job_, 1024);
+  job_.run(vertices.count(),
+           [&](std::size_t part) { settle(vertices.begin(part), vertices.end(part)); });
+  slot_ = Buffer<Id>();
   mesh_.slot = Buffer<Tetrahedron>();
   connect();
   return std::move(out_);
@@ -197,7 +240,12 @@ Compact3 Compactor::run() {
 
 Compact3 compact3(const SpatialOrder3& order, Mesh3&& mesh, Job& job) {
   if (mesh.slots == 0) return {};
-  return Compactor(order, std::move(mesh), job).run();
+  return Compactor<Form::kFacets>(order, std::move(mesh), job).run();
+}
+
+Compact3 rows3(const SpatialOrder3& order, Mesh3&& mesh, Job& job) {
+  if (mesh.slots == 0) return {};
+  return Compactor<Form::kRows>(order, std::move(mesh), job).run();
 }
 
 }  // namespace alphamesh

@@ -22,4 +22,8 @@ struct Compact3 {
 
 Compact3 compact3(const SpatialOrder3& order, Mesh3&& mesh, Job& job);
 
+// The same tetrahedra as rows of the input's numbers, ascending, each neighbour opposite to
+// its vertex still, as numbers of tetrahedra without the facet.
+Compact3 rows3(const SpatialOrder3& order, Mesh3&& mesh, Job& job);
+
 }  // namespace alphamesh

@@ -208,26 +208,6 @@ void Writer<Rule>::triangles() {
 
 }  // namespace
 
-void write_rows(const SpatialOrder3& order, Compact3& mesh, Job& job) {
-  const Parts parts(mesh.count, job);
-  job.run(parts.count(), [&](std::size_t part) {
-    for (std::size_t t = parts.begin(part); t < parts.end(part); ++t) {
-      // A vertex and the neighbour opposite to it, packed, are sorted as one.
-      std::int64_t pair[4];
-      for (std::size_t k = 0; k < 4; ++k) {
-        const Id row = order.row[static_cast<std::size_t>(mesh.vertex[4 * t + k])];
-        const Id code = mesh.neighbor[4 * t + k], across = code < 0 ? -1 : code >> 2;
-        pair[k] = (std::int64_t{row} << 32) | static_cast<std::uint32_t>(across);
-      }
-      std::sort(pair, pair + 4);
-      for (std::size_t k = 0; k < 4; ++k) {
-        mesh.vertex[4 * t + k] = static_cast<Id>(pair[k] >> 32);
-        mesh.neighbor[4 * t + k] = static_cast<Id>(pair[k] & 0xffffffff);
-      }
-    }
-  });
-}
-
 Filtration3 in_space(Filtration2&& flat) {
   Filtration3 f;
   f.triangle_tetrahedra = Buffer<Id>(2 * flat.triangle_radii.size());

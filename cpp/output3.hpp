@@ -12,10 +12,6 @@
 
 namespace alphamesh {
 
-// Turns the tetrahedra into rows of the input's numbers, ascending, each neighbour opposite
-// to its vertex still, as numbers of tetrahedra without the facet.
-void write_rows(const SpatialOrder3& order, Compact3& mesh, Job& job);
-
 // Rows of vertex numbers ascend. The order of the rows depends on the cloud alone.
 struct Filtration3 {
   Buffer<std::int32_t> tetrahedra;           // (T, 4)
