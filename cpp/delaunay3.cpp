@@ -110,7 +110,7 @@ void Insertion<Cloud>::run_parallel(const Id* begin, const Id* end, std::vector<
 
 template <class Cloud>
 void Insertion<Cloud>::run_round(const Id* begin, const Id* end) {
-  constexpr std::ptrdiff_t kWorthwhile = 4000;  // points a thread
+  constexpr auto kWorthwhile = static_cast<std::ptrdiff_t>(worthwhile(4000));  // points a thread
   if (job_.threads() > 1 && end - begin > kWorthwhile * job_.threads()) {
     std::vector<Id> later;
     run_parallel(begin, end, later);

@@ -79,13 +79,21 @@ class Job {
   std::atomic<double> progress_{0.0};
 };
 
+// The least work that is a part of its own. Fuzzers want to see several parts, and threads,
+// even of tiny clouds.
+#ifdef ALPHAMESH_SMALL_PARTS
+constexpr std::size_t worthwhile(std::size_t) { return 2; }
+#else
+constexpr std::size_t worthwhile(std::size_t least) { return least; }
+#endif
+
 // Equal parts of [0, n): a few per thread, so that one slow part does not hold up the rest.
 class Parts {
  public:
   Parts(std::size_t n, const Job& job, std::size_t least = 8192) : n_(n) {
     const std::size_t wanted =
         job.threads() == 1 ? 16 : 8 * static_cast<std::size_t>(job.threads());
-    count_ = std::max<std::size_t>(1, std::min(wanted, n / least));
+    count_ = std::max<std::size_t>(1, std::min(wanted, n / worthwhile(least)));
   }
   std::size_t count() const { return count_; }
   std::size_t begin(std::size_t i) const { return n_ * i / count_; }

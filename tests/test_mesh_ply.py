@@ -95,3 +95,12 @@ def test_damaged_files_are_refused(tmp_path, old, new, said):
     path.write_text(ASCII.replace(old, new))
     with pytest.raises(FileReadError, match=said):
         read_mesh(path)
+
+
+@pytest.mark.timeout(30)
+def test_a_header_without_end_is_refused(tmp_path):
+    """Found by fuzzing: meshio looks for the end for ever."""
+    path = tmp_path / "cut.ply"
+    path.write_bytes(b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n")
+    with pytest.raises(FileReadError, match="no line 'end_header'"):
+        read_mesh(path)

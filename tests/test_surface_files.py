@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import struct
 import sys
 from importlib.util import find_spec
 
@@ -240,6 +241,47 @@ def test_damaged_las_files_are_refused(las, tmp_path):
             read_points(tmp_path / name)
     with pytest.raises(FileReadError, match="no column 'colour'"):
         read_points(las("scan.las"), columns=("x", "colour"))
+
+
+def changed(data, at, form, *numbers):
+    return data[:at] + struct.pack(form, *numbers) + data[at + struct.calcsize(form) :]
+
+
+def test_headers_that_promise_too_much_are_refused_at_once(las, tmp_path):
+    """Found by fuzzing: laspy reads millions of empty records, for minutes."""
+    whole = las("scan.las").read_bytes()
+    later = changed(whole, 24, "<BB", 1, 4)  # as of version 1.4, which knows of EVLR
+    for name, data, message in (
+        ("vlr.las", changed(whole, 100, "<I", 50_000_000), "50000000 records .VLR."),
+        ("evlr.las", changed(later, 235, "<QI", 300, 2**31), "2147483648 records .EVLR."),
+        ("points.las", changed(whole, 107, "<I", 2**32 - 1), "cut off.*4294967295 points"),
+    ):
+        (tmp_path / name).write_bytes(data)
+        with pytest.raises(FileReadError, match=message):
+            read_points(tmp_path / name)
+
+
+def test_damaged_packed_points_are_refused(las, tmp_path):
+    """Found by fuzzing: lazrs ends the process, or panics with no Exception."""
+    pytest.importorskip("lazrs")
+    whole = las("scan.laz").read_bytes()
+    start = struct.unpack_from("<I", whole, 96)[0]
+    place = struct.unpack_from("<q", whole, start)[0]
+    record = whole.index(b"laszip encoded") - 2 + 54
+    for name, data, message in (
+        ("chunks.laz", changed(whole, place + 4, "<I", 2**32 - 1), "table of packed chunks"),
+        ("place.laz", changed(whole, start, "<q", -5), "table of packed chunks"),
+        ("items.laz", changed(whole, record + 32, "<H", 0), "not a complete LAS file"),
+        ("cut.laz", whole[:-30], "table of packed chunks|not a complete LAS file"),
+    ):
+        (tmp_path / name).write_bytes(data)
+        with pytest.raises(FileReadError, match=message):
+            read_points(tmp_path / name)
+    # The place may be told at the end, by what writes without going back.
+    (tmp_path / "streamed.laz").write_bytes(
+        changed(whole, start, "<q", -1) + struct.pack("<q", place)
+    )
+    assert len(read_points(tmp_path / "streamed.laz")) == 200
 
 
 @pytest.mark.parametrize("encoding", ["ASCII", "BINARY", "BINARY_COMPRESSED"])

@@ -3,15 +3,18 @@ r"""``python -m trust``: hunt for wrong answers and crashes; keep the record.
     python -m trust --quick                         a look at each campaign, in a minute
     python -m trust --predicates 15000000 --clouds 1000000 --solids 100000 --files 100000 \
         --processes 2 --json record.json            the figures of record
+    python -m trust fuzz core --minutes 60 --json record.json      libFuzzer on the kernels
+    python -m trust fuzz readers --minutes 60 --json record.json   atheris on the readers
+    python -m trust merge record.json other.json    add up runs of different seeds
     python -m trust --write-docs docs --json record.json      write them into the page
 
-A record grows: a campaign that is run again takes the place of its older figures.
+A record grows: a campaign that is run again takes the place of its older figures, but for
+fuzzing, which adds to them.
 """
 
 from __future__ import annotations
 
 import argparse
-import datetime
 import json
 import sys
 from collections.abc import Sequence
@@ -19,21 +22,30 @@ from pathlib import Path
 from typing import Any
 
 from trust import clouds, predicates, readers
+from trust.fuzz import run
+from trust.record import coverage_entries, merged, read, table, today, write
 
-__all__ = ["main", "table"]
+__all__ = ["main"]
 
-_QUICK = {"predicates": 200_000, "clouds": 2000, "solids": 500, "files": 1000}
+_QUICK = {"predicates": 200_000, "clouds": 2000, "solids": 500, "files": 1000, "inputs": 500}
 _MARKERS = ("<!-- figures of record -->", "<!-- end of the figures -->")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; 1 if anything failed."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    command = {"fuzz": _fuzz, "merge": _merge}.get(words[0] if words else "", _campaigns)
+    return command(words if command is _campaigns else words[1:])
+
+
+def _campaigns(words: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m trust")
     for name, what in (
         ("predicates", "near-degenerate cases of each predicate"),
         ("clouds", "nasty clouds in the plane"),
         ("solids", "nasty clouds in space"),
         ("files", "damaged files"),
+        ("inputs", "what fuzzers have found before, and so many changes of it"),
     ):
         parser.add_argument(f"--{name}", type=int, default=0, metavar="N", help=what)
     parser.add_argument("--quick", action="store_true", help="some of each")
@@ -41,17 +53,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--json", type=Path, help="keep the record here")
     parser.add_argument("--write-docs", type=Path, metavar="FOLDER", help="write the table")
-    options = parser.parse_args(arguments)
+    options = parser.parse_args(words)
     if options.quick:
         vars(options).update(_QUICK)
-    record = _read(options.json)
+    record = read(options.json)
     failed = 0
     for result in _results(options):
         print(json.dumps(result), flush=True)
-        record[result["campaign"]] = result | {"date": _today()}
+        record[result["campaign"]] = result | {"date": today()}
         failed += result.get("failed", 0) + result.get("wrong", 0)
         if options.json:
-            options.json.write_text(json.dumps(record, indent=1), encoding="utf-8")
+            write(record, options.json)
     if options.write_docs:
         _write(options.write_docs / "exactness.md", table(record))
     return 1 if failed else 0
@@ -67,38 +79,39 @@ def _results(options: argparse.Namespace) -> Any:
         yield clouds.campaign(options.solids, 3, **at)
     if options.files:
         yield readers.campaign(options.files, **at)
+    if options.inputs:
+        yield run.replay_core(options.inputs)
+        yield run.replay_readers(options.inputs)
 
 
-def _today() -> str:
-    return datetime.datetime.now(datetime.UTC).date().isoformat()
+def _fuzz(words: Sequence[str]) -> int:
+    parser = argparse.ArgumentParser(prog="python -m trust fuzz")
+    parser.add_argument("what", choices=("core", "readers"))
+    parser.add_argument("--minutes", type=float, default=1.0)
+    parser.add_argument("--json", type=Path, help="add the figures to this record")
+    parser.add_argument("--keep", action="store_true", help="keep new inputs in trust/corpus")
+    options = parser.parse_args(words)
+    campaign = run.fuzz_core if options.what == "core" else run.fuzz_readers
+    result = campaign(options.minutes) | {"date": today()}
+    print(json.dumps(result), flush=True)
+    if options.json:
+        write(merged([read(options.json), {result["campaign"]: result}]), options.json)
+    if options.keep:
+        run.keep(options.what)
+    return 1 if result["failed"] else 0
 
 
-def _read(path: Path | None) -> dict[str, Any]:
-    if path is None or not path.exists():
-        return {}
-    found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-    return found
-
-
-def table(record: dict[str, Any]) -> str:
-    """Return the record as two tables of Markdown."""
-    lines = [
-        "| predicate | cases | exactly zero | beyond filter | beyond double-double | wrong |",
-        "|---|--:|--:|--:|--:|--:|",
-    ]
-    others = [
-        "| campaign | cases | proved or read | refused | failed |",
-        "|---|--:|--:|--:|--:|",
-    ]
-    for name, facts in record.items():
-        if "wrong" in facts:
-            keys = ("cases", "zero", "beyond_filter", "beyond_double_double", "wrong")
-            lines.append(f"| `{name}` | " + " | ".join(f"{facts[k]:,}" for k in keys) + " |")
-        else:
-            good = facts.get("proved", facts.get("read"))
-            numbers = (facts["cases"], good, facts["refused"], facts["failed"])
-            others.append(f"| {name} | " + " | ".join(f"{k:,}" for k in numbers) + " |")
-    return "\n".join([*lines, "", *others])
+def _merge(words: Sequence[str]) -> int:
+    parser = argparse.ArgumentParser(prog="python -m trust merge")
+    parser.add_argument("record", type=Path, help="grows by the others")
+    parser.add_argument("others", type=Path, nargs="*")
+    parser.add_argument("--coverage", type=Path, nargs=2, metavar=("PYTHON", "CPP"))
+    options = parser.parse_args(words)
+    record = merged(map(read, (options.record, *options.others)))
+    if options.coverage:
+        record |= coverage_entries(*options.coverage)
+    write(record, options.record)
+    return 0
 
 
 def _write(page: Path, text: str) -> None:

@@ -25,11 +25,12 @@ import numpy as np
 
 import alphamesh as am
 from alphamesh.errors import AlphameshError, AlphameshWarning
+from alphamesh.io.geo import GEO_FORMATS, read_geo, write_geo
 from alphamesh.io.images import read_mask
 from alphamesh.io.meshes import MESH_FORMATS, read_mesh
-from alphamesh.io.points import read_points
+from alphamesh.io.points import read_points, read_table
 
-__all__ = ["campaign", "damaged", "samples"]
+__all__ = ["campaign", "damaged", "outcome", "samples"]
 
 _SECONDS = 20
 _MEMORY = 3 << 30
@@ -48,14 +49,14 @@ def samples(folder: Path) -> dict[str, tuple[bytes, Reader]]:
     table = "x,y,name\n" + "".join(f"{x},{y},p{k}\n" for k, (x, y) in enumerate(points))
     (folder / "points.csv").write_text(table)
     (folder / "points.tsv").write_text(table.replace(",", "\t"))
-    (folder / "points.xyz").write_text(table.partition("\n")[2].replace(",", " "))
+    (folder / "points.xyz").write_text("".join(f"{x} {y} {x + y}\n" for x, y in points))
     (folder / "points.csv.gz").write_bytes(gzip.compress(table.encode()))
     np.save(folder / "points.npy", points)
     np.savez_compressed(folder / "points.npz", points=points)
-    for name in ("csv", "tsv", "xyz", "csv.gz", "npy", "npz"):
-        keep(f"points.{name}", read_points)
     _parquet(folder / "points.parquet", points)
-    keep("points.parquet", read_points)
+    _scans(folder, points)
+    for name in ("csv", "tsv", "xyz", "csv.gz", "npy", "npz", "parquet", "las", "laz", "pcd"):
+        keep(f"points.{name}", _read_points_and_table)
     shape = am.AlphaComplex(points).at(1.5)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AlphameshWarning)
@@ -63,11 +64,54 @@ def samples(folder: Path) -> dict[str, tuple[bytes, Reader]]:
             if known.read is not None:
                 shape.save(folder / f"mesh{extension}")
                 keep(f"mesh{extension}", read_mesh)
-    keep("mesh.ply", read_points)
+    found["scan.ply"] = (found["mesh.ply"][0], _read_points_and_table)
+    for name in _geographic(folder, points):
+        keep(name, _read_geo_and_points)
     _images(folder)
     for name in ("png", "tif", "gif", "jpg", "bmp"):
         keep(f"mask.{name}", read_mask)
     return found
+
+
+def _read_points_and_table(path: Path) -> None:
+    read_points(path)
+    read_table(path)
+
+
+def _read_geo_and_points(path: Path) -> None:
+    read_geo(path)
+    if path.suffix != ".wkb":
+        read_points(path)
+
+
+def _scans(folder: Path, points: Any) -> None:
+    import laspy
+    import pypcd4
+
+    header = laspy.LasHeader(point_format=3, version="1.2")
+    header.scales = np.array([0.001, 0.001, 0.001])
+    scan = laspy.LasData(header)
+    scan.x, scan.y, scan.z = points[:, 0], points[:, 1], points.sum(axis=1)
+    scan.write(folder / "points.las")
+    scan.write(folder / "points.laz")
+    places = np.column_stack((points, points.sum(axis=1))).astype(np.float32)
+    pypcd4.PointCloud.from_xyz_points(places).save(folder / "points.pcd")
+
+
+def _geographic(folder: Path, points: Any) -> list[str]:
+    """Write one file of each format of a GIS; return their names."""
+    import geopandas
+    import shapely
+
+    columns = {"height": points[:, 0], "name": [f"p{k}" for k in range(len(points))]}
+    frame = geopandas.GeoDataFrame(columns, geometry=shapely.points(points), crs=25832)
+    names = [f"places{extension}" for extension in GEO_FORMATS if extension != ".shp"]
+    for name in names:
+        rows = frame.iloc[:5] if name.endswith(".gpkg") else frame
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", AlphameshWarning)
+            write_geo(rows, folder / name)
+    return names
 
 
 def _parquet(path: Path, points: Any) -> None:
@@ -123,7 +167,8 @@ def _alarm(number: int, frame: object) -> None:
     raise _TooSlowError(f"more than {_SECONDS} s")
 
 
-def _one(name: str, content: bytes, reader: Reader, folder: Path) -> str:
+def outcome(name: str, content: bytes, reader: Reader, folder: Path) -> str:
+    """Read `content` as a file of that name: "read" or "refused"; all else is raised."""
     path = folder / name
     path.write_bytes(content)
     # Libraries that we read with also complain on the terminal.
@@ -157,7 +202,7 @@ def _batch(task: tuple[int, int]) -> tuple[Counter[str], list[str]]:
             content, reader = sound[file]
             signal.setitimer(signal.ITIMER_REAL, _SECONDS)
             try:
-                tally[_one(file, damaged(content, rng), reader, folder)] += 1
+                tally[outcome(file, damaged(content, rng), reader, folder)] += 1
             except BaseException as error:
                 tally["failed"] += 1
                 failures.append(f"seed {seed}, {file}: {type(error).__name__}: {error}"[:400])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,6 +25,7 @@ _TYPES = {
     b"int": "i4", b"int32": "i4", b"uint": "u4", b"uint32": "u4",
     b"float": "f4", b"float32": "f4", b"double": "f8", b"float64": "f8",
 }  # fmt: skip
+_END = re.compile(rb"^[ \t]*end_header[ \t\r]*$", re.MULTILINE)
 _AXES = ("x", "y", "z")
 _CORNERS = 3
 
@@ -45,9 +47,11 @@ def read_ply(path: Path) -> Mesh:
         If it is cut off, or has edges beside faces that are no triangles.
     """
     content = path.read_bytes()
-    head, mark, body = content.partition(b"end_header")
+    head, _, body = content.partition(b"end_header")
+    if not _END.search(content):  # meshio would look for it for ever
+        raise FileReadError("it is cut off: its header has no line 'end_header'")
     elements = _elements(head)
-    if not mark or elements.get("edge") is None:
+    if elements.get("edge") is None:
         return read_with_meshio(path, "ply")
     form = next((line.split()[1] for line in head.splitlines() if line[:7] == b"format "), b"")
     if form not in _ORDERS:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import struct
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
 
 __all__ = ["las_table", "pcd_table", "read_las", "read_pcd"]
+
+# Point formats from here on are those of LAZ.
+_PACKED = 64
 
 
 def read_las(source: Source, wanted: Wanted) -> FloatArray:
@@ -50,18 +54,22 @@ def las_table(source: Source) -> tuple[list[str], Any]:
     with source.open() as file:
         _refuse_other(source, file.read(4), b"LASF", "LAS")
         file.seek(0)
+        _refuse_counts(source, file)
+        file.seek(0)
         try:
             points: Any = laspy.read(file, closefd=False)
         except Exception as error:  # laspy and its decoders raise errors of many types
             if "No LazBackend" in str(error):
                 raise MissingLibraryError.of("lazrs", "las", "reading LAZ files") from error
             raise _damaged(source, "LAS", error) from error
+        except BaseException as error:
+            # lazrs is written in Rust: its panics are no Exception.
+            if type(error).__name__ != "PanicException":
+                raise
+            raise _damaged(source, "LAS", error) from error
     promised = points.header.point_count
     if len(points) != promised:
-        raise source.failure(
-            f"is cut off: its header promises {promised} points and {len(points)} follow; "
-            "write or copy it again"
-        )
+        raise _cut_off(source, promised, len(points))
     # The raw integers X, Y and Z come first; the scaled ones take their place.
     return ["x", "y", "z", *list(points.point_format.dimension_names)[3:]], points
 
@@ -104,10 +112,7 @@ def pcd_table(source: Source) -> tuple[list[str], Any]:
             raise _damaged(source, "PCD", error) from error
     promised = points.metadata.points
     if len(table) != promised:
-        raise source.failure(
-            f"is cut off: its header promises {promised} points and {len(table)} follow; "
-            "write or copy it again"
-        )
+        raise _cut_off(source, promised, len(table))
     return list(points.fields), table
 
 
@@ -116,7 +121,66 @@ def _refuse_other(source: Source, start: bytes, wanted: bytes, name: str) -> Non
         raise source.failure(f"is not a {name} file: it does not begin with {wanted.decode()}")
 
 
-def _damaged(source: Source, name: str, error: Exception) -> FileReadError:
+def _refuse_counts(source: Source, file: BinaryIO) -> None:
+    """Refuse a LAS header that promises more records than the file has room for.
+
+    laspy believes it: millions of records of nothing take minutes and all memory. Offsets
+    as in the LAS specification 1.4 R15, table 3; a record of variable length has 54 bytes
+    or more, an extended one 60.
+    """
+    head = file.read(375)
+    if len(head) < 227:
+        return  # laspy tells
+    head = head.ljust(375, b"\0")
+    size = source.size
+    header, start, records, kind, length, points = struct.unpack_from("<HIIBHI", head, 94)
+    if records > max(0, min(start, size) - header) // 54:
+        raise source.failure(
+            f"is damaged: its header promises {records} records (VLR) before the points, "
+            "and there is no room for them; write or copy it again"
+        )
+    if head[25] >= 4:
+        extended_start, extended, points = struct.unpack_from("<QIQ", head, 235)
+        if extended > max(0, size - extended_start) // 60:
+            raise source.failure(
+                f"is damaged: its header promises {extended} records (EVLR) after the points, "
+                "and there is no room for them; write or copy it again"
+            )
+    following = max(0, size - start) // max(1, length)
+    if kind < _PACKED and points > following:
+        raise _cut_off(source, points, following)
+    if kind >= _PACKED and points:
+        _refuse_chunks(source, file, start)
+
+
+def _refuse_chunks(source: Source, file: BinaryIO, start: int) -> None:
+    """Refuse a table of more chunks of points than the file has bytes.
+
+    lazrs makes room for as many as are promised, and ends the process if there is none.
+    The table's place is told where the points begin, or at the end if that says -1.
+    """
+    place = -1
+    for at in (start, source.size - 8):
+        file.seek(max(0, at))
+        (place,) = struct.unpack("<q", file.read(8).ljust(8, b"\0"))
+        if place != -1:
+            break
+    file.seek(max(0, place))
+    _, chunks = struct.unpack("<II", file.read(8).ljust(8, b"\0"))
+    if place < 0 or chunks > source.size:
+        raise source.failure(
+            "is damaged: its table of packed chunks is not in its place; write or copy it again"
+        )
+
+
+def _cut_off(source: Source, promised: int, following: int) -> FileReadError:
+    return source.failure(
+        f"is cut off: its header promises {promised} points and {following} follow; "
+        "write or copy it again"
+    )
+
+
+def _damaged(source: Source, name: str, error: BaseException) -> FileReadError:
     detail = str(error) or type(error).__name__
     return source.failure(f"is not a complete {name} file ({detail}); write or copy it again")
 

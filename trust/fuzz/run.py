@@ -1,0 +1,276 @@
+"""Builds and runs the fuzzers, and runs what they have found before without them.
+
+The core is fuzzed by libFuzzer, which comes with clang and its runtime library (on Debian
+and Ubuntu the packages ``clang`` and ``libclang-rt-14-dev``, with the number of clang's
+version; elsewhere LLVM's own packages). CXX may name the compiler. The readers are fuzzed
+by atheris (``pip install atheris``). Inputs that lead somewhere new are kept in
+``build/fuzz`` from run to run; a minimal set of them stands in ``trust/corpus``.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from trust import readers
+from trust.fuzz import reading
+
+__all__ = ["fuzz_core", "fuzz_readers", "keep", "replay_core", "replay_readers"]
+
+_HERE = Path(__file__).resolve().parent
+_ROOT = _HERE.parents[1]
+_CORPUS = _HERE.parent / "corpus"
+_BUILD = _ROOT / "build" / "fuzz"
+_PROOFS = ("core", "plane", "space")
+_COMMON = ("-std=c++17", "-ffp-contract=off", "-pthread", f"-I{_ROOT / 'cpp'}")
+_SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=undefined")
+# Several parts of tiny clouds, and threads at work on them.
+_CORE = ("-O1", "-g", "-DALPHAMESH_SMALL_PARTS", "-fsanitize=fuzzer-no-link", *_SANITIZED)
+_MOST_BYTES = {"core": 256, "readers": reading.LARGEST}
+# What is kept of a corpus, the smallest inputs first.
+_MOST_KEPT = {"core": 60_000, "readers": 240_000}
+
+
+def _clang() -> str:
+    named = os.environ.get("CXX", "")
+    versions = [f"clang++-{version}" for version in range(25, 13, -1)]
+    for name in ([named] if "clang" in named else []) + ["clang++", *versions]:
+        if found := shutil.which(name):
+            return found
+    raise RuntimeError("fuzzing the core needs clang++ with libFuzzer; see trust/fuzz/run.py")
+
+
+def _core_sources() -> list[Path]:
+    text = (_ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    listed = re.search(r"set\(CORE(.*?)\)", text, re.DOTALL)
+    if listed is None:
+        raise RuntimeError("CMakeLists.txt does not list the sources of the core")
+    return [_ROOT / name for name in listed[1].split()]
+
+
+def _compile(
+    compiler: str, flags: tuple[str, ...], sources: list[Path], into: Path
+) -> list[str]:
+    """Compile what is older than its source or any header; return the object files."""
+    into.mkdir(parents=True, exist_ok=True)
+    headers = [
+        *_HERE.glob("*.hpp"),
+        *_HERE.parent.glob("*.hpp"),
+        *(_ROOT / "cpp").glob("*.hpp"),
+    ]
+    newest = max(path.stat().st_mtime for path in headers)
+
+    def one(source: Path) -> str:
+        target = into / f"{source.stem}.o"
+        if not target.exists() or target.stat().st_mtime < max(newest, source.stat().st_mtime):
+            command = [compiler, *_COMMON, *flags, "-c", str(source), "-o", str(target)]
+            subprocess.run(command, check=True)
+        return str(target)
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(one, sources))
+
+
+def _build_fuzzer() -> Path:
+    """Build the core to be looked into, and the proofs to be fast."""
+    compiler = _clang()
+    core = _compile(compiler, _CORE, _core_sources(), _BUILD / "core")
+    plain = ("-O2", "-g", "-DALPHAMESH_SMALL_PARTS")
+    proofs = _compile(
+        compiler, plain, [_HERE / f"{name}.cpp" for name in _PROOFS], _BUILD / "proofs"
+    )
+    target = _BUILD / "fuzzer"
+    # The core comes first: of functions that both have, its own are taken.
+    link = ["-fsanitize=fuzzer", *_SANITIZED, "-pthread", *core, *proofs, "-o", str(target)]
+    subprocess.run([compiler, *link], check=True)
+    return target
+
+
+def _fuzz(what: str, command: list[str], minutes: float, environment: dict[str, str]) -> Any:
+    """Run a fuzzer for some minutes; return what it says, in figures."""
+    corpus, failures = _BUILD / f"{what}-corpus", _BUILD / f"{what}-failures"
+    for folder in (corpus, failures):
+        folder.mkdir(parents=True, exist_ok=True)
+    command += [
+        *(str(corpus), f"-max_total_time={round(60 * minutes)}", "-len_control=0"),
+        *(f"-max_len={_MOST_BYTES[what]}", "-timeout=60", "-rss_limit_mb=2500"),
+        *(
+            f"-artifact_prefix={failures}{os.sep}",
+            "-print_final_stats=1",
+            "-report_slow_units=30",
+        ),
+    ]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    start = time.perf_counter()
+    done = subprocess.run(
+        command, env=os.environ | environment, cwd=_ROOT, check=False, errors="replace",
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode:
+        print(done.stderr[-6000:], file=sys.stderr)
+    runs = re.search(r"number_of_executed_units:\s*(\d+)", done.stderr)
+    places = re.findall(r"cov: (\d+)", done.stderr)
+    return {
+        "campaign": {"core": "kernels, by libFuzzer", "readers": "readers, by atheris"}[what],
+        "cases": int(runs[1]) if runs else 0,
+        "places": int(places[-1]) if places else 0,
+        "failed": int(done.returncode != 0),
+        "seconds": round(time.perf_counter() - start),
+        "cpu_seconds": round(
+            after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        ),
+    }
+
+
+def fuzz_core(minutes: float) -> dict[str, Any]:
+    """Fuzz the kernels; an input that fails is in ``build/fuzz/core-failures``."""
+    fuzzer = _build_fuzzer()
+    corpus = _BUILD / "core-corpus"
+    corpus.mkdir(parents=True, exist_ok=True)
+    for path in (_CORPUS / "core").iterdir():
+        shutil.copy(path, corpus)
+    options = {"ASAN_OPTIONS": "quarantine_size_mb=16:malloc_context_size=4"}
+    return _fuzz("core", [str(fuzzer)], minutes, options)
+
+
+def fuzz_readers(minutes: float) -> dict[str, Any]:
+    """Fuzz the readers; an input that fails is in ``build/fuzz/readers-failures``."""
+    corpus = _BUILD / "readers-corpus"
+    corpus.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as name:
+        samples = readers.samples(Path(name))
+    known = reading.names(samples)
+    for number, file in enumerate(known):
+        contents = [samples[file][0], *(p.read_bytes() for p in _kept_files(file))]
+        for content in contents:
+            _put(corpus, reading.encoded(number, content))
+    paths = os.pathsep.join(filter(None, ["src", ".", os.environ.get("PYTHONPATH")]))
+    command = [sys.executable, "-m", "trust.fuzz.reading"]
+    return _fuzz("readers", command, minutes, {"PYTHONPATH": paths})
+
+
+def _put(folder: Path, data: bytes) -> None:
+    (folder / sha256(data).hexdigest()[:16]).write_bytes(data)
+
+
+def _kept_files(name: str) -> list[Path]:
+    folder = _CORPUS / "readers" / name
+    return sorted(folder.iterdir()) if folder.exists() else []
+
+
+# ------------------------------------------------------------------ what is kept
+
+
+def keep(what: str) -> None:
+    """Put a minimal set of the inputs that reach everything into ``trust/corpus``."""
+    corpus = _BUILD / f"{what}-corpus"
+    with tempfile.TemporaryDirectory() as name:
+        least = Path(name)
+        command = (
+            [str(_BUILD / "fuzzer")]
+            if what == "core"
+            else [sys.executable, "-m", "trust.fuzz.reading"]
+        )
+        options = ["-merge=1", f"-max_len={_MOST_BYTES[what]}", str(least), str(corpus)]
+        subprocess.run([*command, *options], check=True, cwd=_ROOT, stderr=subprocess.DEVNULL)
+        chosen = [path.read_bytes() for path in least.iterdir()]
+    left = _MOST_KEPT[what]
+    with tempfile.TemporaryDirectory() as name:
+        known = reading.names(readers.samples(Path(name)))
+    for data in sorted(chosen, key=len):
+        left -= len(data)
+        if left < 0:
+            break
+        folder, content = _CORPUS / what, data
+        if what == "readers":
+            number, content = reading.decoded(data, len(known))
+            folder /= known[number]
+        folder.mkdir(parents=True, exist_ok=True)
+        _put(folder, content)
+
+
+# ------------------------------------------------------------------ without a fuzzer
+
+
+def replay_core(changes: int) -> dict[str, Any]:
+    """Prove the kernels on the kept inputs and on so many random changes of them.
+
+    Needs a C++ compiler. The core of an earlier build is taken if there is one.
+    """
+    compiler = os.environ.get("CXX") or shutil.which("c++") or shutil.which("g++") or _clang()
+    start = time.perf_counter()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        sources = [_HERE / f"{part}.cpp" for part in (*_PROOFS, "replay")]
+        built = _built_core()
+        objects = _compile(compiler, ("-O1",), sources, folder / "proofs")
+        objects += (
+            [str(built)] if built else _compile(compiler, ("-O1",), _core_sources(), folder)
+        )
+        program = str(folder / "replay")
+        subprocess.run([compiler, *objects, "-pthread", "-o", program], check=True)
+        kept = sorted(str(path) for path in (_CORPUS / "core").iterdir())
+        done = subprocess.run(
+            [program, str(changes), *kept], check=False, capture_output=True, text=True
+        )
+    if done.returncode:
+        print(done.stderr, file=sys.stderr)
+    cases = int(done.stdout or 0)
+    return {
+        "campaign": "kept inputs of the kernels",
+        "cases": cases,
+        "proved": cases,
+        "refused": 0,
+        "failed": int(done.returncode != 0),
+        "seconds": round(time.perf_counter() - start),
+    }
+
+
+def _built_core() -> Path | None:
+    """Return the library of the core that an installation left, if it is up to date."""
+    newest = max(path.stat().st_mtime for path in (_ROOT / "cpp").iterdir())
+    built = (_ROOT / "build").glob("*/libalphamesh_core.a")
+    return next((path for path in built if path.stat().st_mtime >= newest), None)
+
+
+def replay_readers(changes: int, *, seed: int = 0) -> dict[str, Any]:
+    """Read the kept files and so many random changes of them, in this process."""
+    start = time.perf_counter()
+    tally: Counter[str] = Counter()
+    rng = np.random.default_rng(seed)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        samples = readers.samples(folder)
+        kept = [(file, path.read_bytes()) for file in samples for path in _kept_files(file)]
+        tasks = list(kept)
+        for _ in range(changes if kept else 0):
+            file, content = kept[int(rng.integers(len(kept)))]
+            tasks.append((file, readers.damaged(content, rng)))
+        for number, (file, content) in enumerate(tasks):
+            try:
+                tally[readers.outcome(file, content, samples[file][1], folder)] += 1
+            except Exception as error:
+                tally["failed"] += 1
+                print(f"input {number}, {file}: {error!r}", file=sys.stderr)
+    return {
+        "campaign": "kept inputs of the readers",
+        "cases": len(tasks),
+        "read": tally["read"],
+        "refused": tally["refused"],
+        "failed": tally["failed"],
+        "seconds": round(time.perf_counter() - start),
+    }
