@@ -251,3 +251,40 @@ def nearest3(
 ) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64]]: ...
 def trim_memory() -> None: ...
 def self_test() -> str: ...
+
+class Recycling:
+    def __init__(self) -> None: ...
+
+_Border = tuple[int, NDArray[np.int64], NDArray[np.int32]]
+
+def tile2(
+    points: NDArray[np.float64],
+    rows: NDArray[np.int64],
+    bounds: NDArray[np.float64],
+    radius: float,
+    threads: int,
+    progress: Callable[[float], object] | None,
+) -> tuple[
+    NDArray[np.int32] | None,
+    NDArray[np.int64],
+    NDArray[np.int64],
+    NDArray[np.float64],
+    NDArray[np.int8],
+    NDArray[np.int64],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    _Border,
+    _Border,
+]: ...
+def spread(
+    points: NDArray[np.float64],
+    axes: NDArray[np.int64],
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    below: NDArray[np.int64],
+    above: NDArray[np.int64],
+    progress: Callable[[float], object] | None,
+) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float64]]: ...
+def checksum(bytes: NDArray[np.uint8], before: int) -> int: ...

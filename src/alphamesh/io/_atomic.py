@@ -22,7 +22,7 @@ _NEARLY_FULL = 1 << 16
 
 
 @contextmanager
-def atomic_path(path: str | os.PathLike[str]) -> Iterator[Path]:
+def atomic_path(path: str | os.PathLike[str], *, forced: bool = True) -> Iterator[Path]:
     """Give a file beside `path` to write into; it takes the name `path` if all goes well.
 
     The file given is empty, has the same extension and stands in the same folder. When
@@ -35,6 +35,9 @@ def atomic_path(path: str | os.PathLike[str]) -> Iterator[Path]:
     ----------
     path : path-like
         Where the output shall be.
+    forced : bool
+        Whether to wait for the disk. If not, what is there after a power failure has to
+        be checked by other means.
 
     Yields
     ------
@@ -54,8 +57,9 @@ def atomic_path(path: str | os.PathLike[str]) -> Iterator[Path]:
         raise _explained(error, path) from error
     try:
         yield temporary
-        with temporary.open("rb+") as written:
-            os.fsync(written.fileno())
+        if forced:
+            with temporary.open("rb+") as written:
+                os.fsync(written.fileno())
         temporary.replace(target)
     except BaseException as error:
         # Explained first: once the file is gone, a full disk does not look full.

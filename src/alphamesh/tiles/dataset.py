@@ -23,7 +23,7 @@ __all__ = ["DATASET_FORMATS", "Chunk", "Dataset", "dataset"]
 DATASET_FORMATS: tuple[str, ...] = ("npy", "parquet", "las", "laz")
 """Extensions of files that :func:`dataset` reads; a folder holds files of one of them."""
 
-_CHUNK = 1_000_000
+_CHUNK = 2_000_000
 _AXES = ("x", "y", "z")
 
 
@@ -63,6 +63,39 @@ class Chunk:
         NonFiniteError
             If a coordinate is NaN or infinite; the message names rows of the dataset.
         """
+        points = np.ascontiguousarray(self._points(), dtype=np.float64)
+        if not np.isfinite(points).all():
+            poor = np.flatnonzero(~np.isfinite(points).all(axis=1))
+            rows = poor[:6] + self.first_row
+            raise NonFiniteError(
+                f"NaN or infinite coordinates in {rows_text(rows, total=len(poor))} of "
+                f"{self.path}; remove these rows",
+                rows=rows,
+            )
+        return points
+
+    def sample(self, count: int) -> FloatArray:
+        """Return some points of the chunk, the same ones each time.
+
+        Parameters
+        ----------
+        count : int
+
+        Returns
+        -------
+        (k, d) float64
+            No more than `count`, a few less as a rule.
+        """
+        points = self._points()
+        if count < self.count:
+            rng = np.random.default_rng(self.number)
+            points = points[np.unique(rng.integers(0, self.count, count))]
+        points = np.array(points, dtype=np.float64)
+        # Others are named when the chunk is read.
+        return points.compress(np.isfinite(points).all(axis=1), axis=0)
+
+    def _points(self) -> Any:
+        """Return the rows of the chunk, perhaps not read yet."""
         try:
             points = _READERS[_kind(self.path)](self)
         except (OSError, ValueError) as error:
@@ -73,15 +106,6 @@ class Chunk:
             raise FileReadError(
                 f"{self.path} has changed: rows {self.first_row:,} and following are missing; "
                 "start again with overwrite=True"
-            )
-        points = np.ascontiguousarray(points, dtype=np.float64)
-        poor = np.flatnonzero(~np.isfinite(points).all(axis=1))
-        if len(poor):
-            rows = poor[:6] + self.first_row
-            raise NonFiniteError(
-                f"NaN or infinite coordinates in {rows_text(rows, total=len(poor))} of "
-                f"{self.path}; remove these rows",
-                rows=rows,
             )
         return points
 
@@ -215,10 +239,13 @@ def _npy_parts(path: Path, wanted: Wanted, size: int) -> Parts:
     return _slices(len(array), size, chosen)
 
 
-def _read_npy(chunk: Chunk) -> FloatArray:
+def _read_npy(chunk: Chunk) -> Any:
     array = _open_npy(chunk.path)
     part = array[chunk.start : chunk.start + chunk.count]
-    return np.asarray(part[:, list(chunk.columns)], dtype=np.float64)
+    first, last = chunk.columns[0], chunk.columns[-1]
+    if chunk.columns == tuple(range(first, last + 1)):
+        return part[:, first : last + 1]
+    return part[:, list(chunk.columns)]
 
 
 def _parquet(path: str | Path) -> Any:

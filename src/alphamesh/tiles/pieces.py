@@ -8,15 +8,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
+from alphamesh._kernels import BadCoordinates
+from alphamesh._kernels.tiles import tile2
 from alphamesh.filtration import filtration
-from alphamesh.filtration3d import Filtration3D
+from alphamesh.measures import total_length
+from alphamesh.points import coordinate_error
 from alphamesh.tiles.fronts import FRAME, fronts, with_frame
 from alphamesh.tiles.labels import Border
 from alphamesh.tiles.share import Share
 from alphamesh.tiles.tiling import Tiling, halo_width
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import CountArray, FloatArray, KindArray
+    from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray, KindArray
+    from alphamesh._kernels import Progress
 
 __all__ = ["Boundary", "Piece", "solve"]
 
@@ -104,6 +108,7 @@ def solve(  # noqa: PLR0913 (a tile, its points and the radius)
     radius: float,
     *,
     threads: int | None = 1,
+    progress: Progress | None = None,
 ) -> Piece:
     """Compute the simplices of value at most `radius` that one tile owns.
 
@@ -115,25 +120,85 @@ def solve(  # noqa: PLR0913 (a tile, its points and the radius)
     ----------
     tiling : Tiling
     tile : int
-    rows : (n,) int64
+    rows : (n,) int64 or int32
         Rows in the whole cloud, ascending: of the tile and its halo.
     points : (n, d) float64
     radius : float
         Finite.
     threads : int, optional
+    progress : callable, optional
 
     Returns
     -------
     Piece
     """
-    inside = tiling.tile_of(points) == tile
-    if tiling.dimension == 3:
-        # Too far away to matter, except for what is outside.
-        points = with_frame(points, halo_width(radius))
-        inside = np.append(inside, np.zeros(FRAME, dtype=np.bool_))
-        rows = np.append(rows, np.full(FRAME, np.iinfo(np.int64).max))
-    found = filtration(points, threads=threads)
-    share = Share(found, inside, tiling.boxes[tile], radius)
+    bounds = tiling.bounds(tile, radius)
+    inside = ((points >= bounds[0]) & (points < bounds[1])).all(axis=1)
+    solved = _in_space if tiling.dimension == 3 else _in_plane
+    return solved(tile, rows, points, bounds, inside, radius, threads, progress)
+
+
+def _in_plane(  # noqa: PLR0913, PLR0917 (see solve)
+    tile: int,
+    rows: CountArray,
+    points: FloatArray,
+    bounds: FloatArray,
+    inside: BoolArray,
+    radius: float,
+    threads: int | None,
+    progress: Progress | None,
+) -> Piece:
+    try:
+        share = tile2(points, rows, bounds, radius, threads, progress)
+    except BadCoordinates:
+        raise coordinate_error(points) from None
+    edges = share.boundary[:, :2]
+    return Piece(
+        tile,
+        read_only(rows.compress(inside)),
+        read_only(points.compress(inside, axis=0)),
+        _representatives(rows, inside, share.representative),
+        (share.vertices[:, np.newaxis], share.edges, share.triangles),
+        (read_only(np.zeros(len(share.vertices))), share.edge_radii, share.triangle_radii),
+        share.edge_kinds,
+        Boundary(
+            read_only(rows.take(edges)),
+            read_only(rows.take(share.boundary[:, 2])),
+            read_only(points.take(share.boundary, axis=0)),
+            share.boundary_regions,
+        ),
+        total_length(points, edges),
+        share.region_sizes,
+        Border(*share.components),
+        Border(*share.regions),
+        Border(0, np.empty((0, 4), dtype=np.int64), np.empty(0, dtype=np.int64)),
+    )
+
+
+def _representatives(
+    rows: CountArray, inside: BoolArray, representative: IntArray | None
+) -> CountArray:
+    if representative is not None:
+        rows = rows.take(representative)
+    return read_only(rows.compress(inside))
+
+
+def _in_space(  # noqa: PLR0913, PLR0917 (see solve)
+    tile: int,
+    rows: CountArray,
+    points: FloatArray,
+    bounds: FloatArray,
+    inside: BoolArray,
+    radius: float,
+    threads: int | None,
+    progress: Progress | None,
+) -> Piece:
+    # Too far away to matter, except for what is outside.
+    points = with_frame(points, halo_width(radius))
+    inside = np.append(inside, np.zeros(FRAME, dtype=np.bool_))
+    rows = np.append(rows, np.full(FRAME, np.iinfo(rows.dtype).max, dtype=rows.dtype))
+    found = filtration(points, threads=threads, progress=progress)
+    share = Share(found, inside, bounds[:2], radius)
     facets, apexes, cells = share.boundary
     region_labels, regions = share.regions(rows)
     own = np.flatnonzero(inside)
@@ -161,7 +226,5 @@ def solve(  # noqa: PLR0913 (a tile, its points and the radius)
         share.region_sizes(region_labels, regions.count),
         share.components(rows),
         regions,
-        fronts(found, inside, rows, radius)
-        if isinstance(found, Filtration3D)
-        else Border(0, np.empty((0, 4), dtype=np.int64), np.empty(0, dtype=np.int64)),
+        fronts(found, inside, rows, radius),
     )

@@ -19,17 +19,17 @@ from alphamesh.tiles.merge import merge
 from alphamesh.tiles.pieces import solve
 from alphamesh.tiles.store import Store
 from alphamesh.tiles.tiling import plan
-from alphamesh.tiles.workers import Workers, workers_of
+from alphamesh.tiles.workers import Workers, go_on, workers_of
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import FloatArray
+    from alphamesh._arrays import CountArray, FloatArray
 
 __all__ = ["run"]
 
 _TILE_POINTS = 500_000
 _SAMPLE = 500_000
 # Shares of the work, for progress.
-_SURVEYED, _SCATTERED, _SOLVED = 0.05, 0.25, 0.98
+_SURVEYED, _SPREAD, _SOLVED = 0.05, 0.25, 0.98
 
 Progress = Callable[[float], object]
 
@@ -42,6 +42,7 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
     tile_points: int = _TILE_POINTS,
     cluster: Any = None,
     processes: int | None = None,
+    threads: int | None = None,
     overwrite: bool = False,
     keep_chunks: bool = False,
     progress: Progress | None = None,
@@ -64,10 +65,13 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
     tile_points : int
         About how many points a tile shall have; it takes some 500 bytes of memory each.
     cluster : None, "local", str or distributed.Client
-        Who works: this process, processes of its own on this machine, or the Dask
-        cluster of this address or client.
+        Who works: threads of this process, processes of its own on this machine, or the
+        Dask cluster of this address or client.
     processes : int, optional
         How many for "local"; by default one for each CPU.
+    threads : int, optional
+        At how many tiles this process works at a time if there is no cluster; by default
+        one for each CPU.
     overwrite : bool
         Delete another run's result in the folder.
     keep_chunks : bool
@@ -93,13 +97,13 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
     store = Store(Path(folder).absolute())
     _begin(store, data, radius, int(tile_points), overwrite=overwrite)
     told = _unheard if progress is None else progress
-    with workers_of(cluster, processes) as workers:
+    with workers_of(cluster, processes, threads) as workers:
         _plan(store, data, int(tile_points), workers, told)
         tiles = _solve(store, data, radius, workers, told)
     parts = [store.part(tile)[0] for tile in range(tiles)]
     store.write_summary(merge(parts, radius)[0])
     if not keep_chunks:
-        store.drop_chunks()
+        store.spool(data.dimension).drop()
     told(1.0)
     return TiledComplex(store.folder)
 
@@ -166,16 +170,23 @@ def _plan(
 def _solve(store: Store, data: Dataset, radius: float, workers: Workers, told: Progress) -> int:
     tiling = store.plan()
     assert tiling is not None
-    tiles = [tile for tile in range(len(tiling)) if not store.has_tile(tile)]
+    done = dict(workers.each(partial(_has_tile, folder=store.folder), range(len(tiling))))
+    tiles = [tile for tile in range(len(tiling)) if not done[tile]]
     if tiles:
-        chunks = [chunk for chunk in data.chunks if not store.has_chunk(chunk.number)]
-        spread = partial(_scatter, folder=store.folder, radius=radius)
+        spread = partial(_spread, folder=store.folder, radius=radius)
         for _ in _counted(
-            workers.each(spread, chunks), len(chunks), told, _SURVEYED, _SCATTERED
+            workers.each(spread, data.chunks), len(data.chunks), told, _SURVEYED, _SPREAD
         ):
             pass
-    work = partial(_solve_tile, folder=store.folder, chunks=len(data.chunks), radius=radius)
-    for _ in _counted(workers.each(work, tiles), len(tiles), told, _SCATTERED, _SOLVED):
+    first_rows = np.array([chunk.first_row for chunk in data.chunks], dtype=np.int64)
+    work = partial(
+        _solve_tile,
+        folder=store.folder,
+        first_rows=first_rows,
+        row_type=np.int32 if data.count <= np.iinfo(np.int32).max else np.int64,
+        radius=radius,
+    )
+    for _ in _counted(workers.each(work, tiles), len(tiles), told, _SPREAD, _SOLVED):
         pass
     return len(tiling)
 
@@ -193,27 +204,32 @@ def _counted(
 
 def _sample(chunk: Chunk, share: float) -> tuple[int, FloatArray]:
     """Return some points of a chunk, the same ones each time."""
-    points = chunk.read()
-    wanted = min(len(points), math.ceil(len(points) * share))
-    chosen = np.random.default_rng(chunk.number).choice(len(points), wanted, replace=False)
-    return chunk.number, points.take(np.sort(chosen), axis=0)
+    return chunk.number, chunk.sample(math.ceil(chunk.count * share))
 
 
-def _scatter(chunk: Chunk, folder: Path, radius: float) -> None:
-    """Sort the points of a chunk into tiles and their halos."""
+def _has_tile(tile: int, folder: Path) -> tuple[int, bool]:
+    """Tell whether a tile is complete."""
+    return tile, Store(folder).has_tile(tile)
+
+
+def _spread(chunk: Chunk, folder: Path, radius: float) -> None:
+    """Sort the points of a chunk into tiles and their halos, unless that is done."""
     store = Store(folder)
     tiling = store.plan()
     assert tiling is not None
-    points = chunk.read()
-    offsets, rows = tiling.with_halo(points, radius)
-    store.write_chunk(chunk.number, offsets, rows + chunk.first_row, points.take(rows, axis=0))
+    spool = store.spool(tiling.dimension)
+    if not spool.holds(chunk.number):
+        spool.write(chunk.number, *tiling.spread(chunk.read(), radius, go_on))
 
 
-def _solve_tile(tile: int, folder: Path, chunks: int, radius: float) -> int:
+def _solve_tile(
+    tile: int, folder: Path, first_rows: CountArray, row_type: Any, radius: float
+) -> int:
     """Compute and keep what a tile owns."""
     store = Store(folder)
     tiling = store.plan()
     assert tiling is not None
-    rows, points = store.points_of(tile, chunks, tiling.dimension)
-    store.write_tile(solve(tiling, tile, rows, points, radius))
+    spool = store.spool(tiling.dimension)
+    rows, points = spool.points_of(tile, len(tiling), first_rows, row_type)
+    store.write_tile(solve(tiling, tile, rows, points, radius, progress=go_on))
     return tile

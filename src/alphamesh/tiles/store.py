@@ -1,12 +1,13 @@
 """A folder that holds a tiled complex, finished or not: what is there can be trusted.
 
 Every file appears whole or not at all. A tile's record, which lists the checksums of its
-files, is written after them: a tile without a record has to be computed (again).
+files, is written after them: a tile without a record has to be computed (again). Files of
+tiles are not forced to the disk one by one; what a power failure makes of them, the
+checksums tell.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 from dataclasses import asdict, fields
@@ -17,10 +18,12 @@ import numpy as np
 
 from alphamesh._arrays import read_only
 from alphamesh.errors import FileReadError, MissingLibraryError
+from alphamesh._kernels.tiles import checksum
 from alphamesh.io._atomic import atomic_path
 from alphamesh.tiles.labels import Border
 from alphamesh.tiles.merge import Part, Summary, part_of
 from alphamesh.tiles.pieces import Boundary, Piece
+from alphamesh.tiles.spool import Spool
 from alphamesh.tiles.tiling import Tiling
 
 if TYPE_CHECKING:
@@ -30,6 +33,9 @@ __all__ = ["TABLES", "Store"]
 
 TABLES = ("vertices", "edges", "triangles", "tetrahedra")
 """The Parquet datasets in the folder, one file a tile in each; the last in space only."""
+
+# Bytes read at a time for a checksum: they stay in the processor's cache.
+_BLOCK = 1 << 20
 
 _MANIFEST, _PLAN, _SUMMARY = "manifest.json", "plan.npz", "summary.json"
 
@@ -85,60 +91,32 @@ class Store:
 
     # Points on their way from chunks to tiles
 
-    def has_chunk(self, chunk: int) -> bool:
-        """Tell whether a chunk has been spread over the tiles."""
-        return self._chunk(chunk, "offsets").exists()
-
-    def write_chunk(
-        self, chunk: int, offsets: CountArray, rows: CountArray, points: FloatArray
-    ) -> None:
-        """Keep the points of a chunk, tile by tile."""
-        for name, array in (("points", points), ("rows", rows), ("offsets", offsets)):
-            with atomic_path(self._chunk(chunk, name)) as path, path.open("wb") as file:
-                np.save(file, array, allow_pickle=False)
-
-    def points_of(
-        self, tile: int, chunks: int, dimension: int
-    ) -> tuple[CountArray, FloatArray]:
-        """Return rows and points of a tile and its halo, ascending by row."""
-        rows, points = [np.empty(0, dtype=np.int64)], [np.empty((0, dimension))]
-        for chunk in range(chunks):
-            part = slice(*self._slice(chunk, "offsets", slice(tile, tile + 2)).tolist())
-            if part.start < part.stop:
-                rows.append(self._slice(chunk, "rows", part))
-                points.append(self._slice(chunk, "points", part))
-        return np.concatenate(rows), np.concatenate(points)
-
-    def _slice(self, chunk: int, name: str, part: slice) -> Any:
-        array = np.load(self._chunk(chunk, name), mmap_mode="r", allow_pickle=False)
-        return np.array(array[part])
-
-    def drop_chunks(self) -> None:
-        """Delete the points on their way, once no tile needs them."""
-        for file in (self.folder / "chunks").glob("*.npy"):
-            file.unlink()
-
-    def _chunk(self, chunk: int, name: str) -> Path:
-        return self.folder / "chunks" / f"{chunk:06}.{name}.npy"
+    def spool(self, dimension: int) -> Spool:
+        """Return the files of points on their way."""
+        return Spool(self.folder / "chunks", dimension)
 
     # Tiles
 
     def has_tile(self, tile: int) -> bool:
         """Tell whether a tile is complete, by its checksums."""
-        record = self._json(self._record(tile))
-        return record is not None and all(
-            (self.folder / name).exists() and _checksum(self.folder / name) == known
-            for name, known in record["files"].items()
-        )
+        try:
+            record = self._json(self._record(tile))
+            return record is not None and all(
+                _checksum(self.folder / name) == known
+                for name, known in record["files"].items()
+            )
+        except (FileReadError, OSError):
+            return False
 
     def write_tile(self, piece: Piece) -> None:
         """Keep a finished tile: its simplices, and what the whole needs to know of it."""
         tables = TABLES[: len(piece.simplices)]
         written = [self._write_table(name, piece) for name in tables]
-        name = f"tiles/{piece.tile:06}.npz"
-        self._write_arrays(name, _flat(piece))
+        name = self._summary(piece.tile)
+        self._write_arrays(name, _flat(piece), forced=False)
         files = {name: _checksum(self.folder / name) for name in (*written, name)}
-        self._write_json(self._record(piece.tile), {"tile": piece.tile, "files": files})
+        record = {"tile": piece.tile, "files": files}
+        self._write_json(self._record(piece.tile), record, forced=False)
 
     def part(self, tile: int) -> tuple[Part, Boundary]:
         """Return what the whole needs to know of a finished tile.
@@ -146,14 +124,21 @@ class Store:
         Raises
         ------
         FileReadError
-            If the tile is not finished, or its files are damaged.
+            If the tile is not finished, or this file of it is damaged.
         """
-        arrays = self._arrays(f"tiles/{tile:06}.npz") if self.has_tile(tile) else None
-        if arrays is None:
+        name = self._summary(tile)
+        record = self._json(self._record(tile))
+        path = self.folder / name
+        if record is None or not path.exists() or _checksum(path) != record["files"][name]:
             raise FileReadError(
                 f"{self.folder}: tile {tile} is missing or damaged; run it again"
             )
+        arrays = self._arrays(name)
+        assert arrays is not None
         return _unflat(arrays)
+
+    def _summary(self, tile: int) -> str:
+        return f"tiles/{tile:06}.npz"
 
     def _record(self, tile: int) -> str:
         return f"tiles/{tile:06}.json"
@@ -166,9 +151,11 @@ class Store:
             raise MissingLibraryError.of("pyarrow", "tiles", "writing tiles") from error
         file = f"{name}/part-{piece.tile:06}.parquet"
         table = pa.table(_columns(name, piece))
-        with atomic_path(self.folder / file) as path:
-            # Rows and radii hardly repeat: a dictionary of them costs more than it saves.
-            pq.write_table(table, path, use_dictionary=False)
+        # Rows and radii hardly repeat, and lie anywhere: neither a dictionary of them nor
+        # their ranges are worth the time. Where points lie is.
+        known = [axis for axis in "xyz" if axis in table.column_names]
+        with atomic_path(self.folder / file, forced=False) as path:
+            pq.write_table(table, path, use_dictionary=False, write_statistics=known)
         return file
 
     # Files
@@ -184,8 +171,10 @@ class Store:
             ) from error
         return found
 
-    def _write_json(self, name: str, content: dict[str, Any]) -> None:
-        with atomic_path(self.folder / name) as path:
+    def _write_json(
+        self, name: str, content: dict[str, Any], *, forced: bool = True
+    ) -> None:
+        with atomic_path(self.folder / name, forced=forced) as path:
             path.write_text(json.dumps(content, indent=1), "utf-8")
 
     def _arrays(self, name: str) -> dict[str, Any] | None:
@@ -195,14 +184,24 @@ class Store:
         with np.load(path, allow_pickle=False) as arrays:
             return {key: read_only(arrays[key]) for key in arrays.files}
 
-    def _write_arrays(self, name: str, arrays: dict[str, Any]) -> None:
-        with atomic_path(self.folder / name) as path, path.open("wb") as file:
+    def _write_arrays(
+        self, name: str, arrays: dict[str, Any], *, forced: bool = True
+    ) -> None:
+        with (
+            atomic_path(self.folder / name, forced=forced) as path,
+            path.open("wb") as file,
+        ):
             np.savez(file, **arrays)
 
 
 def _checksum(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+    """Return the checksum of a file as it is read back."""
+    block = memoryview(bytearray(_BLOCK))
+    total = 0
+    with path.open("rb", buffering=0) as file:
+        while size := file.readinto(block):
+            total = checksum(block[:size], total)
+    return f"{total:016x}"
 
 
 def _columns(name: str, piece: Piece) -> dict[str, Any]:

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
+from alphamesh._kernels.tiles import spread
 from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import CountArray, FloatArray
+    from alphamesh._arrays import CountArray, FloatArray, IntArray
+    from alphamesh._kernels import Progress
 
 __all__ = ["Tiling", "halo_width", "plan"]
 
@@ -70,9 +72,9 @@ class Tiling(Record):
 
     def tile_of(self, points: FloatArray) -> CountArray:
         """Return the tile that each point belongs to, ``(n,)`` int64."""
+        offsets, rows, _ = self._send(points, self.cuts, self.cuts)
         tiles = np.empty(len(points), dtype=np.int64)
-        for tile, rows in self._spread(points, 0.0, halo=False):
-            tiles[rows] = tile
+        tiles[rows] = np.repeat(np.arange(len(self)), np.diff(offsets))
         return tiles
 
     def with_halo(self, points: FloatArray, radius: float) -> tuple[CountArray, CountArray]:
@@ -90,34 +92,59 @@ class Tiling(Record):
         rows : (k,) int64
             ``rows[offsets[i]:offsets[i + 1]]``, ascending, are those of tile i.
         """
-        found: list[CountArray] = [np.empty(0, dtype=np.int64)] * len(self)
-        for tile, rows in self._spread(points, halo_width(radius), halo=True):
-            found[tile] = rows
-        offsets = np.concatenate(([0], np.cumsum([len(rows) for rows in found])))
-        return offsets.astype(np.int64), np.concatenate(found)
+        offsets, rows, _ = self.spread(points, radius)
+        return offsets, rows.astype(np.int64)
 
-    def _spread(
-        self, points: FloatArray, width: float, *, halo: bool
-    ) -> list[tuple[int, CountArray]]:
-        """Send rows down the tree, to both sides where they are near to a cut."""
-        done = []
-        waiting = [(0 if len(self.cuts) else -1, np.arange(len(points), dtype=np.int64))]
-        while waiting:
-            node, rows = waiting.pop()
-            if node < 0:
-                done.append((-1 - node, rows))
-                continue
-            at, cut = points[:, self.axes[node]].take(rows), self.cuts[node]
-            if halo:
-                # A sum is rounded, so the next float is surely not too near.
-                low = at < np.nextafter(cut + width, np.inf)
-                high = at >= np.nextafter(cut - width, -np.inf)
-            else:
-                low = at < cut
-                high = ~low
-            waiting.append((int(self.below[node]), rows.compress(low)))
-            waiting.append((int(self.above[node]), rows.compress(high)))
-        return done
+    def spread(
+        self, points: FloatArray, radius: float, progress: Progress | None = None
+    ) -> tuple[CountArray, IntArray, FloatArray]:
+        """Return what :meth:`with_halo` does, and the points in this order.
+
+        Parameters
+        ----------
+        points : (n, d) float64
+        radius : float
+        progress : callable, optional
+
+        Returns
+        -------
+        offsets : (t + 1,) int64
+        rows : (k,) int32
+        points : (k, d) float64
+        """
+        width = halo_width(radius)
+        # A sum is rounded, so the next float is surely not too near.
+        low = np.nextafter(self.cuts + width, np.inf)
+        high = np.nextafter(self.cuts - width, -np.inf)
+        return self._send(points, low, high, progress)
+
+    def _send(
+        self,
+        points: FloatArray,
+        low: FloatArray,
+        high: FloatArray,
+        progress: Progress | None = None,
+    ) -> tuple[CountArray, IntArray, FloatArray]:
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        return spread(points, self.axes, low, high, self.below, self.above, progress)
+
+    def bounds(self, tile: int, radius: float) -> FloatArray:
+        """Return the box of a tile, and how near to it other tiles see its points.
+
+        Parameters
+        ----------
+        tile : int
+        radius : float
+
+        Returns
+        -------
+        (4, d) float64
+            Lower and upper corner; others may know points that are not above the third
+            row, or not below the last one, in any coordinate.
+        """
+        (low, high), width = self.boxes[tile], halo_width(radius)
+        near = np.nextafter(low + width, np.inf), np.nextafter(high - width, -np.inf)
+        return read_only(np.stack((low, high, *near)))
 
     def __repr__(self) -> str:
         return f"<Tiling: {len(self):,} tiles of dimension {self.dimension}>"

@@ -1,20 +1,26 @@
-"""Who does the work: this process, or the workers of a Dask cluster."""
+"""Who does the work: threads of this process, or the workers of a Dask cluster."""
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
 from typing import Any, Protocol, TypeVar
 
+from alphamesh._kernels import resolve_threads
+from alphamesh._kernels.tiles import Recycling
 from alphamesh.errors import MissingLibraryError, ParameterError
 
-__all__ = ["Workers", "workers_of"]
+__all__ = ["Workers", "go_on", "workers_of"]
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 # How often a task is tried again whose worker has died.
 _RETRIES = 3
+
+_ours = threading.local()
 
 
 class Workers(Protocol):
@@ -26,13 +32,45 @@ class Workers(Protocol):
         """Yield the results as they come, in any order."""
 
 
+class _StoppedError(Exception):
+    """Others have failed, so that nobody waits for the result."""
+
+
+def go_on(_fraction: float) -> None:
+    """Stop the task that this thread is at, if nobody needs it any more.
+
+    It is what tasks give to kernels to be told of progress.
+    """
+    stop: threading.Event | None = getattr(_ours, "stop", None)
+    if stop is not None and stop.is_set():
+        raise _StoppedError
+
+
 class _Here:
-    """Work in this process, one task after the other."""
+    """Work in this process: kernels let go of the interpreter, so that threads are enough."""
+
+    def __init__(self, threads: int) -> None:
+        self.threads = threads
 
     def each(
         self, function: Callable[[Task], Result], tasks: Iterable[Task]
     ) -> Iterator[Result]:
-        return map(function, tasks)
+        if self.threads == 1:
+            yield from map(function, tasks)
+            return
+        stop = threading.Event()
+
+        def begin() -> None:
+            _ours.stop = stop
+
+        with ThreadPoolExecutor(self.threads, initializer=begin) as pool:
+            futures = [pool.submit(function, task) for task in tasks]
+            try:
+                for future in as_completed(futures):
+                    yield future.result()
+            finally:
+                stop.set()
+                pool.shutdown(wait=False, cancel_futures=True)
 
 
 class _Cluster:
@@ -56,7 +94,7 @@ class _Cluster:
 
 
 @contextmanager
-def workers_of(cluster: Any, processes: int | None) -> Iterator[Workers]:
+def workers_of(cluster: Any, processes: int | None, threads: int | None) -> Iterator[Workers]:
     """Give workers for a while.
 
     Parameters
@@ -66,9 +104,13 @@ def workers_of(cluster: Any, processes: int | None) -> Iterator[Workers]:
         this address, or the one of a client.
     processes : int, optional
         How many for "local"; by default one for each CPU.
+    threads : int, optional
+        How many of this process; by default one for each CPU.
     """
     if cluster is None:
-        yield _Here()
+        recycling = Recycling()  # a tile takes the memory of the one before
+        yield _Here(resolve_threads(threads))
+        del recycling
         return
     try:
         import distributed

@@ -1,0 +1,111 @@
+// Python functions for tiles of clouds larger than memory.
+#include <memory>
+
+#include "bindings.hpp"
+#include "spread.hpp"
+#include "tile_share2.hpp"
+
+namespace alphamesh {
+namespace {
+
+using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Bytes = nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Numbers = nb::ndarray<const std::int64_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+template <class Row>
+using Rows = nb::ndarray<const Row, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+// Columns that are contiguous each, as tables on disk want them.
+template <class T>
+nb::object columns_array(Columns<T>&& columns) {
+  const std::size_t width = columns.width, count = columns.count;
+  const auto apart = static_cast<std::int64_t>(columns.room);
+  auto* owner = new Buffer<T>(std::move(columns.values));
+  nb::capsule capsule(owner, [](void* p) noexcept { delete static_cast<Buffer<T>*>(p); });
+  const std::size_t shape[2] = {count, width};
+  const std::int64_t strides[2] = {1, apart};
+  return nb::cast(
+      nb::ndarray<nb::numpy, T>(owner->data(), width == 1 ? 1 : 2, shape, capsule, strides));
+}
+
+template <class T>
+nb::object list_array(std::vector<T>&& list, std::size_t columns = 1) {
+  auto* owner = new std::vector<T>(std::move(list));
+  nb::capsule capsule(owner, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+  const std::size_t shape[2] = {owner->size() / columns, columns};
+  return nb::cast(nb::ndarray<nb::numpy, T>(owner->data(), columns == 1 ? 1 : 2, shape, capsule));
+}
+
+template <class Row>
+nb::tuple border(TileBorder<Row>&& found, std::size_t width) {
+  return nb::make_tuple(found.count, list_array(std::move(found.keys), width),
+                        list_array(std::move(found.labels)));
+}
+
+template <std::size_t D>
+TileBox<D> box_of(const Table& bounds) {
+  if (bounds.shape(0) != 4 || bounds.shape(1) != D) {
+    throw std::invalid_argument("bounds: not four corners");
+  }
+  TileBox<D> box;
+  double* const to[4] = {box.low, box.high, box.near_low, box.near_high};
+  for (std::size_t i = 0; i < 4; ++i) std::copy_n(bounds.data() + D * i, D, to[i]);
+  return box;
+}
+
+template <class Row>
+nb::tuple tile2(const Points2& points, const Rows<Row>& rows, const Table& bounds, double radius,
+                int threads, const nb::object& progress) {
+  const std::size_t n = points.shape(0);
+  if (n > kMaxPoints2) throw TooManyPoints("at most 2^27 points");
+  if (rows.shape(0) != n) throw std::invalid_argument("rows: not one for each point");
+  const TileBox<2> box = box_of<2>(bounds);
+  Job job(useful_threads(threads, n));
+  Buffer<std::int32_t> representative;
+  TileShare2<Row> share;
+  run_watched(job, n, progress, [&] {
+    SpatialOrder2 order = spatial_order2(points.data(), n, job);
+    Mesh2 mesh = delaunay2(order, job);
+    share = tile_share2(points.data(), rows.data(), order, mesh, box, radius, job);
+    representative = std::move(order.representative);
+  });
+  return nb::make_tuple(
+      representative.size() == 0 ? nb::none() : array(std::move(representative)),
+      columns_array(std::move(share.vertices)), columns_array(std::move(share.edges)),
+      columns_array(std::move(share.edge_radii)), columns_array(std::move(share.edge_kinds)),
+      columns_array(std::move(share.triangles)), columns_array(std::move(share.triangle_radii)),
+      list_array(std::move(share.boundary), 3), list_array(std::move(share.boundary_regions)),
+      list_array(std::move(share.region_sizes)), border(std::move(share.components), 1),
+      border(std::move(share.regions), 3));
+}
+
+nb::tuple spread_py(const Table& points, const Numbers& axes, const Values& low, const Values& high,
+                    const Numbers& below, const Numbers& above, const nb::object& progress) {
+  const std::size_t n = points.shape(0), dim = points.shape(1);
+  const Cuts cuts{axes.data(), below.data(), above.data(), low.data(), high.data(), axes.shape(0)};
+  Job job(1);
+  Spread out;
+  run_watched(job, n, progress, [&] { out = spread(points.data(), n, dim, cuts, job); });
+  return nb::make_tuple(array(std::move(out.offsets)), array(std::move(out.rows)),
+                        array(std::move(out.points), dim));
+}
+
+std::uint64_t checksum_py(const Bytes& bytes, std::uint64_t before) {
+  const nb::gil_scoped_release released;
+  return checksum(bytes.data(), bytes.shape(0), before);
+}
+
+}  // namespace
+
+void bind_tiles(nb::module_& m) {
+  m.def("tile2", &tile2<std::int32_t>, nb::arg("points"), nb::arg("rows").noconvert(),
+        nb::arg("bounds"), nb::arg("radius"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("tile2", &tile2<std::int64_t>, nb::arg("points"), nb::arg("rows").noconvert(),
+        nb::arg("bounds"), nb::arg("radius"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("spread", &spread_py, nb::arg("points"), nb::arg("axes"), nb::arg("low"), nb::arg("high"),
+        nb::arg("below"), nb::arg("above"), nb::arg("progress").none());
+  m.def("checksum", &checksum_py, nb::arg("bytes"), nb::arg("before"));
+  // While an object of this class lives, memory of kernels is kept for the next one.
+  nb::class_<Recycling>(m, "Recycling").def(nb::init<>());
+}
+
+}  // namespace alphamesh

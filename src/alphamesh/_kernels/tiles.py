@@ -1,0 +1,127 @@
+"""Kernels for tiles of clouds larger than memory: a tile's share, and points on their way."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from alphamesh._kernels import _check_progress, _core, resolve_threads
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import CountArray, FloatArray, IntArray, KindArray
+    from alphamesh._kernels import Progress
+
+__all__ = ["Border", "Recycling", "Share2", "checksum", "spread", "tile2"]
+
+Border = tuple[int, "CountArray", "IntArray"]
+
+Recycling = _core.Recycling
+"""While such an object lives, memory that kernels release is kept for the next ones."""
+
+
+class Share2(NamedTuple):
+    """What one tile owns of a complex in the plane; rows are those of the whole cloud."""
+
+    representative: IntArray | None
+    """(n,) the lowest row of the input with the same coordinates; None if all are distinct"""
+    vertices: CountArray
+    """(m_0,) ascending"""
+    edges: CountArray
+    """(m_1, 2) column by column"""
+    edge_radii: FloatArray
+    edge_kinds: KindArray
+    triangles: CountArray
+    """(m_2, 3) column by column"""
+    triangle_radii: FloatArray
+    boundary: IntArray
+    """(b, 3) rows of the input: an edge with its triangle on the left, the third corner"""
+    boundary_regions: IntArray
+    region_sizes: FloatArray
+    components: Border
+    """how many parts; keys (k, 1) and labels (k,) of what other tiles may know, too"""
+    regions: Border
+    """the same of triangles, keys (k, 3)"""
+
+
+def tile2(  # noqa: PLR0913, PLR0917 (a tile, its points and the radius)
+    points: FloatArray,
+    rows: CountArray,
+    bounds: FloatArray,
+    radius: float,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Share2:
+    """Return the simplices of value at most `radius` that begin in a box.
+
+    Parameters
+    ----------
+    points : (n, 2) float64, C-contiguous
+    rows : (n,) int32 or int64
+        Rows of the points in the whole cloud, ascending; results have this type.
+    bounds : (4, 2) float64
+        Lower and upper corner of the box, which is half open; other boxes may know points
+        that are not above the third or not below the last one.
+    radius : float
+    threads : int, optional
+    progress : callable, optional
+
+    Raises
+    ------
+    BadCoordinates
+        See :func:`alphamesh._kernels.alpha2`.
+    """
+    threads = resolve_threads(threads)
+    _check_progress(progress)
+    *arrays, components, regions = _core.tile2(
+        points, np.ascontiguousarray(rows), bounds, radius, threads, progress
+    )
+    for array in (*arrays, *components[1:], *regions[1:]):
+        if array is not None:
+            array.setflags(write=False)
+    count, keys, labels = components
+    return Share2(*arrays, (count, keys[:, np.newaxis], labels), regions)
+
+
+def spread(  # noqa: PLR0913, PLR0917 (the arrays of a tree)
+    points: FloatArray,
+    axes: CountArray,
+    low: FloatArray,
+    high: FloatArray,
+    below: CountArray,
+    above: CountArray,
+    progress: Progress | None = None,
+) -> tuple[CountArray, IntArray, FloatArray]:
+    """Send points down a tree of cuts.
+
+    Parameters
+    ----------
+    points : (n, d) float64, C-contiguous
+    axes : (m,) int64
+    low, high : (m,) float64
+        What is less than `low` goes below, what is not less than `high` above, high <= low.
+    below, above : (m,) int64
+        Nodes, or -1 - t for tile t.
+    progress : callable, optional
+
+    Returns
+    -------
+    offsets : (m + 2,) int64
+        Of the m + 1 tiles.
+    rows : (k,) int32
+        Of points, tile by tile, ascending in each.
+    points : (k, d) float64
+    """
+    return _core.spread(points, axes, low, high, below, above, progress)
+
+
+def checksum(content: bytes | memoryview, before: int = 0) -> int:
+    """Return a checksum of 64 bits: no protection from intent, but from all accidents.
+
+    Parameters
+    ----------
+    content : bytes-like
+    before : int
+        The checksum of what comes before; its length must be a multiple of eight.
+    """
+    return _core.checksum(np.frombuffer(content, dtype=np.uint8), before)
