@@ -49,10 +49,11 @@ class Maker {
     std::size_t own = 0;
     for (std::size_t i = 0; i < order.size; ++i) {
       const auto at = static_cast<std::size_t>(order.row[i]);
-      const bool inside = box.holds(v + 2 * at);
+      const double* p = order.exponent == 0 ? &p_[i].x : v + 2 * at;  // along the curve
+      const bool inside = box.holds(p);
       row_[i] = rows[at];
-      place_[i] = static_cast<std::uint8_t>(inside | (inside << 1) |
-                                            ((!inside | box.near(v + 2 * at)) << 2));
+      place_[i] =
+          static_cast<std::uint8_t>(inside | (inside << 1) | ((!inside | box.near(p)) << 2));
       own += inside;
     }
     out_.vertices = Columns<Row>(1, own);

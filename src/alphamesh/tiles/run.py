@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 __all__ = ["run"]
 
 _TILE_POINTS = 500_000
-_SAMPLE = 500_000
+# How many points of a sample a tile shall have, so that tiles are balanced.
+_SAMPLE = 1_000
 # Shares of the work, for progress.
 _SURVEYED, _SPREAD, _SOLVED = 0.05, 0.25, 0.98
 
@@ -158,13 +159,14 @@ def _plan(
 ) -> None:
     if store.plan() is not None:
         return
-    share = min(1.0, _SAMPLE / max(data.count, 1))
+    tiles = max(1, math.ceil(data.count / tile_points))
+    share = min(1.0, _SAMPLE * tiles / max(data.count, 1))
     done = workers.each(partial(_sample, share=share), data.chunks)
     samples = dict(_counted(done, len(data.chunks), told, 0.0, _SURVEYED))
     sample = np.concatenate(
         [np.empty((0, data.dimension)), *(samples[k] for k in sorted(samples))]
     )
-    store.write_plan(plan(sample, max(1, math.ceil(data.count / tile_points))))
+    store.write_plan(plan(sample, tiles))
 
 
 def _solve(store: Store, data: Dataset, radius: float, workers: Workers, told: Progress) -> int:

@@ -225,8 +225,9 @@ def _cut(points: FloatArray, share: float) -> tuple[int, float] | None:
     axis = int(np.argmax(high / 2 - low / 2))
     if low[axis] == high[axis]:
         return None
-    values = np.sort(points[:, axis])
-    at = float(values[int(len(values) * share)])
-    if at == values[0]:  # nothing below: the next larger value is the nearest cut
-        at = float(values[np.searchsorted(values, at, side="right")])
+    values = points[:, axis]
+    place = int(len(values) * share)
+    at = float(np.partition(values, place)[place])
+    if at == low[axis]:  # nothing below: the next larger value is the nearest cut
+        at = float(values.compress(values > at).min())
     return axis, at
