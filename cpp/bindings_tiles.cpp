@@ -1,9 +1,8 @@
 // Python functions for tiles of clouds larger than memory.
-#include <memory>
-
 #include "bindings.hpp"
 #include "spread.hpp"
 #include "tile_share2.hpp"
+#include "tile_share3.hpp"
 
 namespace alphamesh {
 namespace {
@@ -78,6 +77,60 @@ nb::tuple tile2(const Points2& points, const Rows<Row>& rows, const Table& bound
       border(std::move(share.regions), 3));
 }
 
+using Points3 = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using Ids1 = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+template <class Row>
+nb::tuple tile_share3_py(const Points3& points, std::size_t real, const Rows<Row>& rows,
+                         const Ids1& representative, const Ids& edges, const Values& edge_radii,
+                         const Ids& triangles, const Values& triangle_radii,
+                         const Ids& triangle_tetrahedra, const Ids& tetrahedra,
+                         const Values& tetrahedron_radii, const Table& bounds, double radius,
+                         const nb::object& progress) {
+  const std::size_t n = points.shape(0);
+  if (rows.shape(0) != n || representative.shape(0) != n || real > n) {
+    throw std::invalid_argument("rows: not one for each point");
+  }
+  const TileView3<Row> view{points.data(),
+                            rows.data(),
+                            n,
+                            real,
+                            edges.data(),
+                            triangles.data(),
+                            tetrahedra.data(),
+                            edge_radii.data(),
+                            triangle_radii.data(),
+                            tetrahedron_radii.data(),
+                            edges.shape(0),
+                            triangles.shape(0),
+                            tetrahedra.shape(0),
+                            triangle_tetrahedra.data(),
+                            representative.data()};
+  const TileBox<3> box = box_of<3>(bounds);
+  Job job(1);
+  TileShare3<Row> share;
+  run_watched(job, n, progress, [&] { share = tile_share3(view, box, radius, job); });
+  return nb::make_tuple(
+      columns_array(std::move(share.vertices)), columns_array(std::move(share.edges)),
+      columns_array(std::move(share.edge_radii)), columns_array(std::move(share.triangles)),
+      columns_array(std::move(share.triangle_radii)), columns_array(std::move(share.triangle_kinds)),
+      columns_array(std::move(share.tetrahedra)), columns_array(std::move(share.tetrahedron_radii)),
+      list_array(std::move(share.boundary), 4), list_array(std::move(share.boundary_regions)),
+      list_array(std::move(share.region_sizes)), border(std::move(share.components), 1),
+      border(std::move(share.regions), 4), border(std::move(share.fronts), 4));
+}
+
+template <class Row>
+void define_shares(nb::module_& m) {
+  m.def("tile2", &tile2<Row>, nb::arg("points"), nb::arg("rows").noconvert(), nb::arg("bounds"),
+        nb::arg("radius"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("tile_share3", &tile_share3_py<Row>, nb::arg("points"), nb::arg("real"),
+        nb::arg("rows").noconvert(), nb::arg("representative"), nb::arg("edges"),
+        nb::arg("edge_radii"), nb::arg("triangles"), nb::arg("triangle_radii"),
+        nb::arg("triangle_tetrahedra"), nb::arg("tetrahedra"), nb::arg("tetrahedron_radii"),
+        nb::arg("bounds"), nb::arg("radius"), nb::arg("progress").none());
+}
+
 nb::tuple spread_py(const Table& points, const Numbers& axes, const Values& low, const Values& high,
                     const Numbers& below, const Numbers& above, const nb::object& progress) {
   const std::size_t n = points.shape(0), dim = points.shape(1);
@@ -97,10 +150,8 @@ std::uint64_t checksum_py(const Bytes& bytes, std::uint64_t before) {
 }  // namespace
 
 void bind_tiles(nb::module_& m) {
-  m.def("tile2", &tile2<std::int32_t>, nb::arg("points"), nb::arg("rows").noconvert(),
-        nb::arg("bounds"), nb::arg("radius"), nb::arg("threads"), nb::arg("progress").none());
-  m.def("tile2", &tile2<std::int64_t>, nb::arg("points"), nb::arg("rows").noconvert(),
-        nb::arg("bounds"), nb::arg("radius"), nb::arg("threads"), nb::arg("progress").none());
+  define_shares<std::int32_t>(m);
+  define_shares<std::int64_t>(m);
   m.def("spread", &spread_py, nb::arg("points"), nb::arg("axes"), nb::arg("low"), nb::arg("high"),
         nb::arg("below"), nb::arg("above"), nb::arg("progress").none());
   m.def("checksum", &checksum_py, nb::arg("bytes"), nb::arg("before"));

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "disjoint_sets.hpp"
 #include "values2.hpp"
 
 namespace alphamesh {
@@ -194,11 +193,6 @@ class Maker {
     known_[t] |= there;
     if (here & there) join(cells_, static_cast<Id>(s), static_cast<Id>(t));
     if (here != there) add_boundary(here ? h : g);
-  }
-
-  static void join(DisjointSets& sets, Id i, Id j) {
-    const Id a = sets.root(i), b = sets.root(j);
-    if (a != b) sets.join(std::max(a, b), std::min(a, b));
   }
 
   void add_boundary(Id h) {

@@ -9,49 +9,9 @@
 #include "memory.hpp"
 #include "parallel.hpp"
 #include "spatial_sort.hpp"
+#include "tile.hpp"
 
 namespace alphamesh {
-
-// Rows of a table, column by column: `room` apart, `count` in use.
-template <class T>
-struct Columns {
-  Columns() = default;
-  Columns(std::size_t columns, std::size_t rows)
-      : values(columns * rows), width(columns), room(rows) {}
-  T* column(std::size_t i) { return values.data() + i * room; }
-
-  Buffer<T> values;
-  std::size_t width = 1;
-  std::size_t room = 0;
-  std::size_t count = 0;
-};
-
-// Connected parts of what a tile knows, and those things that other tiles may know, too:
-// their names, `width` rows of the cloud each, and their parts.
-template <class Row>
-struct TileBorder {
-  std::int32_t count = 0;
-  std::vector<Row> keys;
-  std::vector<std::int32_t> labels;
-};
-
-// Points of the tile are those with low <= p < high; other tiles may know those with
-// p <= near_low or p >= near_high.
-template <std::size_t D>
-struct TileBox {
-  double low[D], high[D], near_low[D], near_high[D];
-
-  bool holds(const double* p) const {
-    bool in = true;
-    for (std::size_t k = 0; k < D; ++k) in = in & (p[k] >= low[k]) & (p[k] < high[k]);
-    return in;
-  }
-  bool near(const double* p) const {
-    bool close = false;
-    for (std::size_t k = 0; k < D; ++k) close = close | (p[k] <= near_low[k]) | (p[k] >= near_high[k]);
-    return close;
-  }
-};
 
 // Row is the type of rows of the whole cloud. A simplex belongs to the tile of its
 // lexicographically first vertex; its rows ascend.

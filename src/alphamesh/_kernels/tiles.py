@@ -12,7 +12,16 @@ if TYPE_CHECKING:
     from alphamesh._arrays import CountArray, FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
 
-__all__ = ["Border", "Recycling", "Share2", "checksum", "spread", "tile2"]
+__all__ = [
+    "Border",
+    "Recycling",
+    "Share2",
+    "Share3",
+    "checksum",
+    "spread",
+    "tile2",
+    "tile_share3",
+]
 
 Border = tuple[int, "CountArray", "IntArray"]
 
@@ -81,6 +90,84 @@ def tile2(  # noqa: PLR0913, PLR0917 (a tile, its points and the radius)
             array.setflags(write=False)
     count, keys, labels = components
     return Share2(*arrays, (count, keys[:, np.newaxis], labels), regions)
+
+
+class Share3(NamedTuple):
+    """What one tile owns of a complex in space; see :class:`Share2`."""
+
+    vertices: CountArray
+    edges: CountArray
+    edge_radii: FloatArray
+    triangles: CountArray
+    triangle_radii: FloatArray
+    triangle_kinds: KindArray
+    tetrahedra: CountArray
+    tetrahedron_radii: FloatArray
+    boundary: IntArray
+    """(b, 4) a triangle, counter-clockwise from outside, and the corner behind it"""
+    boundary_regions: IntArray
+    region_sizes: FloatArray
+    components: Border
+    regions: Border
+    """of tetrahedra, keys (k, 4)"""
+    fronts: Border
+    """keys (k, 4)"""
+
+
+def tile_share3(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
+    points: FloatArray,
+    real: int,
+    rows: CountArray,
+    representative: IntArray,
+    simplices: tuple[IntArray, IntArray, IntArray, IntArray],
+    radii: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
+    triangle_tetrahedra: IntArray,
+    bounds: FloatArray,
+    radius: float,
+    progress: Progress | None = None,
+) -> Share3:
+    """Return the simplices of a filtration in space, up to `radius`, that begin in a box.
+
+    Parameters
+    ----------
+    points : (n, 3) float64, C-contiguous
+    real : int
+        Points from there on are a frame around the others.
+    rows : (n,) int32 or int64
+        Rows of the points in the whole cloud, ascending; results have this type.
+    representative : (n,) int32
+    simplices, radii, triangle_tetrahedra : arrays
+        As in :class:`alphamesh.filtration3d.Filtration3D`.
+    bounds : (4, 3) float64
+        See :func:`tile2`.
+    radius : float
+    progress : callable, optional
+    """
+    _check_progress(progress)
+    (_, edges, triangles, tetrahedra), (_, edge_radii, triangle_radii, cell_radii) = (
+        simplices,
+        radii,
+    )
+    *arrays, components, regions, fronts = _core.tile_share3(
+        points,
+        real,
+        np.ascontiguousarray(rows),
+        representative,
+        edges,
+        edge_radii,
+        triangles,
+        triangle_radii,
+        triangle_tetrahedra,
+        tetrahedra,
+        cell_radii,
+        bounds,
+        radius,
+        progress,
+    )
+    for array in (*arrays, *components[1:], *regions[1:], *fronts[1:]):
+        array.setflags(write=False)
+    count, keys, labels = components
+    return Share3(*arrays, (count, keys[:, np.newaxis], labels), regions, fronts)
 
 
 def spread(  # noqa: PLR0913, PLR0917 (the arrays of a tree)

@@ -14,9 +14,9 @@ from alphamesh._kernels.outlines import connected
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from alphamesh._arrays import BoolArray, CountArray
+    from alphamesh._arrays import CountArray, IntArray
 
-__all__ = ["Border", "border_of", "join"]
+__all__ = ["Border", "join"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -29,40 +29,13 @@ class Border(Record):
         How many parts there are.
     keys : (b, w) int64
         Things that other tiles may know, too, named by rows of the whole cloud.
-    labels : (b,) int64
+    labels : (b,) int32
         The part, from 0 to `count` - 1, of each of them.
     """
 
     count: int
     keys: CountArray
-    labels: CountArray
-
-
-def border_of(
-    keys: CountArray, links: CountArray, shared: BoolArray
-) -> tuple[CountArray, Border]:
-    """Divide things into connected parts.
-
-    Parameters
-    ----------
-    keys : (n, w) int64
-        Names of the things.
-    links : (k, 2) int64
-        Pairs of them that belong together, as rows of `keys`.
-    shared : (n,) bool
-        Which of them other tiles may know.
-
-    Returns
-    -------
-    labels : (n,) int64
-    border : Border
-    """
-    pairs = np.ascontiguousarray(links, dtype=np.int32).reshape(-1, 2)
-    labels = connected(len(keys), pairs).astype(np.int64)
-    count = int(labels.max(initial=-1)) + 1
-    return labels, Border(
-        count, read_only(keys.compress(shared, axis=0)), read_only(labels.compress(shared))
-    )
+    labels: IntArray
 
 
 def join(borders: Sequence[Border]) -> tuple[int, list[CountArray]]:

@@ -9,13 +9,13 @@ import numpy as np
 
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels import BadCoordinates
-from alphamesh._kernels.tiles import tile2
+from alphamesh._kernels.tiles import tile2, tile_share3
 from alphamesh.filtration import filtration
-from alphamesh.measures import total_length
+from alphamesh.filtration3d import Filtration3D
+from alphamesh.measures import total_length, triangle_areas
 from alphamesh.points import coordinate_error
-from alphamesh.tiles.fronts import FRAME, fronts, with_frame
+from alphamesh.tiles.fronts import FRAME, with_frame
 from alphamesh.tiles.labels import Border
-from alphamesh.tiles.share import Share
 from alphamesh.tiles.tiling import Tiling, halo_width
 
 if TYPE_CHECKING:
@@ -194,37 +194,45 @@ def _in_space(  # noqa: PLR0913, PLR0917 (see solve)
     progress: Progress | None,
 ) -> Piece:
     # Too far away to matter, except for what is outside.
-    points = with_frame(points, halo_width(radius))
-    inside = np.append(inside, np.zeros(FRAME, dtype=np.bool_))
-    rows = np.append(rows, np.full(FRAME, np.iinfo(rows.dtype).max, dtype=rows.dtype))
-    found = filtration(points, threads=threads, progress=progress)
-    share = Share(found, inside, bounds[:2], radius)
-    facets, apexes, cells = share.boundary
-    region_labels, regions = share.regions(rows)
-    own = np.flatnonzero(inside)
+    framed = with_frame(points, halo_width(radius))
+    frame = np.full(FRAME, np.iinfo(rows.dtype).max, dtype=rows.dtype)
+    found = filtration(framed, threads=threads, progress=progress)
+    assert isinstance(found, Filtration3D)
+    share = tile_share3(
+        found.points,
+        len(points),
+        np.append(rows, frame),
+        found.representative,
+        found.simplices,
+        found.radii,
+        found.triangle_tetrahedra,
+        bounds,
+        radius,
+        progress,
+    )
+    facets = share.boundary[:, :3]
     return Piece(
         tile,
-        read_only(rows.take(own)),
-        read_only(found.points.take(own, axis=0)),
-        read_only(rows.take(found.representative.take(own))),
-        tuple(
-            read_only(rows.take(simplices.take(kept, axis=0)))
-            for simplices, kept in zip(found.simplices, share.mine, strict=True)
+        read_only(rows.compress(inside)),
+        read_only(points.compress(inside, axis=0)),
+        _representatives(rows, inside, found.representative[: len(points)]),
+        (share.vertices[:, np.newaxis], share.edges, share.triangles, share.tetrahedra),
+        (
+            read_only(np.zeros(len(share.vertices))),
+            share.edge_radii,
+            share.triangle_radii,
+            share.tetrahedron_radii,
         ),
-        tuple(
-            read_only(radii.take(kept))
-            for radii, kept in zip(found.radii, share.mine, strict=True)
-        ),
-        share.facet_kinds,
+        share.triangle_kinds,
         Boundary(
             read_only(rows.take(facets)),
-            read_only(rows.take(apexes)),
-            read_only(found.points.take(np.column_stack((facets, apexes)), axis=0)),
-            read_only(region_labels.take(cells)),
+            read_only(rows.take(share.boundary[:, 3])),
+            read_only(points.take(share.boundary, axis=0)),
+            share.boundary_regions,
         ),
-        share.boundary_size,
-        share.region_sizes(region_labels, regions.count),
-        share.components(rows),
-        regions,
-        fronts(found, inside, rows, radius),
+        float(triangle_areas(points, facets).sum()),
+        share.region_sizes,
+        Border(*share.components),
+        Border(*share.regions),
+        Border(*share.fronts),
     )
