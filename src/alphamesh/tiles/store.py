@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import read_only
-from alphamesh.errors import FileReadError, MissingLibraryError
 from alphamesh._kernels.tiles import checksum
+from alphamesh.errors import FileReadError, MissingLibraryError
 from alphamesh.io._atomic import atomic_path
 from alphamesh.tiles.labels import Border
 from alphamesh.tiles.merge import Part, Summary, part_of
@@ -27,7 +27,7 @@ from alphamesh.tiles.spool import Spool
 from alphamesh.tiles.tiling import Tiling
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import CountArray, FloatArray
+    pass
 
 __all__ = ["TABLES", "Store"]
 
@@ -182,9 +182,7 @@ class Store:
             ) from error
         return found
 
-    def _write_json(
-        self, name: str, content: dict[str, Any], *, forced: bool = True
-    ) -> None:
+    def _write_json(self, name: str, content: dict[str, Any], *, forced: bool = True) -> None:
         with atomic_path(self.folder / name, forced=forced) as path:
             path.write_text(json.dumps(content, indent=1), "utf-8")
 
@@ -195,9 +193,7 @@ class Store:
         with np.load(path, allow_pickle=False) as arrays:
             return {key: read_only(arrays[key]) for key in arrays.files}
 
-    def _write_arrays(
-        self, name: str, arrays: dict[str, Any], *, forced: bool = True
-    ) -> None:
+    def _write_arrays(self, name: str, arrays: dict[str, Any], *, forced: bool = True) -> None:
         with (
             atomic_path(self.folder / name, forced=forced) as path,
             path.open("wb") as file,
