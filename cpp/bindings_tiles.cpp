@@ -154,7 +154,7 @@ void bind_tiles(nb::module_& m) {
   define_shares<std::int64_t>(m);
   m.def("spread", &spread_py, nb::arg("points"), nb::arg("axes"), nb::arg("low"), nb::arg("high"),
         nb::arg("below"), nb::arg("above"), nb::arg("progress").none());
-  m.def("checksum", &checksum_py, nb::arg("bytes"), nb::arg("before"));
+  m.def("checksum", &checksum_py, nb::arg("content"), nb::arg("before"));
   // While an object of this class lives, memory of kernels is kept for the next one.
   nb::class_<Recycling>(m, "Recycling").def(nb::init<>());
 }

@@ -12,7 +12,8 @@ double circumradius_scaled(double u, double v, double w, double det, int exponen
   return std::ldexp(m, eu + ev + ew - ed - 1 + exponent);
 }
 
-// R^2 = u v w / (4 det^2), u, v, w the squared sides. The differences and so the sides
+// R^2 = u v w / (4 det^2), u, v, w the squared sides. The order of the factors makes b and c
+// alike: as seen from the other side of a plane in space, the value is the same. The differences and so the sides
 // are good to an ulp or two; det has a relative error of at most 4 eps (|l| + |r|) / |det|.
 // At most one angle is not acute, the one with the least scalar product, whose sign is
 // sure beyond the bound of dot(), which the longest side squared bounds in turn.
@@ -27,7 +28,7 @@ void TriangleBlock::evaluate() {
     const double uv = u > v ? u : v, longest = uv > w ? uv : w;
     const double ab = at_a < at_b ? at_a : at_b, least = ab < at_c ? ab : at_c;
     const double l = uy * wx, r = ux * wy, det = l - r;
-    const double radius_sq = 0.25 * ((u / det) * (v / det) * w), quarter = 0.25 * longest;
+    const double radius_sq = 0.25 * ((u / det) * (w / det) * v), quarter = 0.25 * longest;
     at_a_[i] = at_a;
     at_b_[i] = at_b;
     at_c_[i] = at_c;
@@ -76,10 +77,10 @@ void TriangleBlock::measure_carefully(std::size_t i, const Lattice& lattice, int
     }
   }
   const double det = cross_accurate(p[0], p[1], p[2]);
-  const double radius_sq = 0.25 * ((side[2] / det) * (side[0] / det) * side[1]);
+  const double radius_sq = 0.25 * ((side[2] / det) * (side[1] / det) * side[0]);
   const bool plain = radius_sq < kLargeSq && radius_sq > kSmallSq;
   const double r = plain ? unscale * std::sqrt(radius_sq)
-                         : circumradius_scaled(side[2], side[0], side[1], det, -exponent);
+                         : circumradius_scaled(side[2], side[1], side[0], det, -exponent);
   radius[i] = std::max(r, unscale * (0.5 * std::sqrt(longest)));
 }
 

@@ -164,10 +164,10 @@ void FlatBlock::evaluate() {
     const double least = smaller(smaller(at_a, at_b), at_c);
     const double yz = u.y * w.z, zy = u.z * w.y, zx = u.z * w.x, xz = u.x * w.z;
     const double xy = u.x * w.y, yx = u.y * w.x;
-    const double terms = std::fabs(yz) + std::fabs(zy) + std::fabs(zx) + std::fabs(xz) +
-                         std::fabs(xy) + std::fabs(yx);
+    const double terms = (std::fabs(yz) + std::fabs(zy)) + (std::fabs(zx) + std::fabs(xz)) +
+                         (std::fabs(xy) + std::fabs(yx));
     const double det = norm(Vector{yz - zy, zx - xz, xy - yx});
-    const double radius_sq = 0.25 * ((u2 / det) * (v2 / det) * w2), quarter = 0.25 * longest;
+    const double radius_sq = 0.25 * ((u2 / det) * (w2 / det) * v2), quarter = 0.25 * longest;
     angle_[0][i] = at_a;
     angle_[1][i] = at_b;
     angle_[2][i] = at_c;
@@ -207,10 +207,10 @@ void FlatBlock::measure_carefully(std::size_t i, const Lattice3& lattice, int ex
     }
   }
   const double det = norm(normal_accurate(p[0], p[1], p[2]));
-  const double radius_sq = 0.25 * ((side[2] / det) * (side[0] / det) * side[1]);
+  const double radius_sq = 0.25 * ((side[2] / det) * (side[1] / det) * side[0]);
   const bool plain = radius_sq < kLargeSq && radius_sq > kSmallSq;
   const double r = plain ? unscale * std::sqrt(radius_sq)
-                         : circumradius_scaled(side[2], side[0], side[1], det, -exponent);
+                         : circumradius_scaled(side[2], side[1], side[0], det, -exponent);
   radius[i] = std::max(r, unscale * (0.5 * std::sqrt(longest)));
 }
 
