@@ -27,17 +27,28 @@ nb::object columns_array(Columns<T>&& columns) {
 }
 
 template <class T>
-nb::object list_array(std::vector<T>&& list, std::size_t columns = 1) {
+nb::object list_array(std::vector<T>&& list, std::size_t columns, std::size_t dimensions = 2) {
   auto* owner = new std::vector<T>(std::move(list));
   nb::capsule capsule(owner, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
   const std::size_t shape[2] = {owner->size() / columns, columns};
-  return nb::cast(nb::ndarray<nb::numpy, T>(owner->data(), columns == 1 ? 1 : 2, shape, capsule));
+  return nb::cast(nb::ndarray<nb::numpy, T>(owner->data(), dimensions, shape, capsule));
+}
+
+template <class T>
+nb::object list_array(std::vector<T>&& list) {
+  return list_array(std::move(list), 1, 1);
 }
 
 template <class Row>
 nb::tuple border(TileBorder<Row>&& found, std::size_t width) {
   return nb::make_tuple(found.count, list_array(std::move(found.keys), width),
                         list_array(std::move(found.labels)));
+}
+
+template <class Row>
+nb::tuple points_tuple(TilePoints<Row>&& own) {
+  return nb::make_tuple(columns_array(std::move(own.rows)), columns_array(std::move(own.points)),
+                        columns_array(std::move(own.representative)));
 }
 
 template <std::size_t D>
@@ -59,22 +70,21 @@ nb::tuple tile2(const Points2& points, const Rows<Row>& rows, const Table& bound
   if (rows.shape(0) != n) throw std::invalid_argument("rows: not one for each point");
   const TileBox<2> box = box_of<2>(bounds);
   Job job(useful_threads(threads, n));
-  Buffer<std::int32_t> representative;
+  TilePoints<Row> own;
   TileShare2<Row> share;
   run_watched(job, n, progress, [&] {
     SpatialOrder2 order = spatial_order2(points.data(), n, job);
     Mesh2 mesh = delaunay2(order, job);
     share = tile_share2(points.data(), rows.data(), order, mesh, box, radius, job);
-    representative = std::move(order.representative);
+    own = tile_points(points.data(), n, rows.data(), order.representative.data(), box);
   });
   return nb::make_tuple(
-      representative.size() == 0 ? nb::none() : array(std::move(representative)),
-      columns_array(std::move(share.vertices)), columns_array(std::move(share.edges)),
-      columns_array(std::move(share.edge_radii)), columns_array(std::move(share.edge_kinds)),
-      columns_array(std::move(share.triangles)), columns_array(std::move(share.triangle_radii)),
-      list_array(std::move(share.boundary), 3), list_array(std::move(share.boundary_regions)),
-      list_array(std::move(share.region_sizes)), border(std::move(share.components), 1),
-      border(std::move(share.regions), 3));
+      points_tuple(std::move(own)), columns_array(std::move(share.vertices)),
+      columns_array(std::move(share.edges)), columns_array(std::move(share.edge_radii)),
+      columns_array(std::move(share.edge_kinds)), columns_array(std::move(share.triangles)),
+      columns_array(std::move(share.triangle_radii)), list_array(std::move(share.boundary), 3),
+      list_array(std::move(share.boundary_regions)), list_array(std::move(share.region_sizes)),
+      border(std::move(share.components), 1), border(std::move(share.regions), 3));
 }
 
 using Points3 = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
@@ -108,16 +118,21 @@ nb::tuple tile_share3_py(const Points3& points, std::size_t real, const Rows<Row
                             representative.data()};
   const TileBox<3> box = box_of<3>(bounds);
   Job job(1);
+  TilePoints<Row> own;
   TileShare3<Row> share;
-  run_watched(job, n, progress, [&] { share = tile_share3(view, box, radius, job); });
+  run_watched(job, n, progress, [&] {
+    share = tile_share3(view, box, radius, job);
+    own = tile_points(points.data(), real, rows.data(), representative.data(), box);
+  });
   return nb::make_tuple(
-      columns_array(std::move(share.vertices)), columns_array(std::move(share.edges)),
-      columns_array(std::move(share.edge_radii)), columns_array(std::move(share.triangles)),
-      columns_array(std::move(share.triangle_radii)), columns_array(std::move(share.triangle_kinds)),
-      columns_array(std::move(share.tetrahedra)), columns_array(std::move(share.tetrahedron_radii)),
-      list_array(std::move(share.boundary), 4), list_array(std::move(share.boundary_regions)),
-      list_array(std::move(share.region_sizes)), border(std::move(share.components), 1),
-      border(std::move(share.regions), 4), border(std::move(share.fronts), 4));
+      points_tuple(std::move(own)), columns_array(std::move(share.vertices)),
+      columns_array(std::move(share.edges)), columns_array(std::move(share.edge_radii)),
+      columns_array(std::move(share.triangles)), columns_array(std::move(share.triangle_radii)),
+      columns_array(std::move(share.triangle_kinds)), columns_array(std::move(share.tetrahedra)),
+      columns_array(std::move(share.tetrahedron_radii)), list_array(std::move(share.boundary), 4),
+      list_array(std::move(share.boundary_regions)), list_array(std::move(share.region_sizes)),
+      border(std::move(share.components), 1), border(std::move(share.regions), 4),
+      border(std::move(share.fronts), 4));
 }
 
 template <class Row>

@@ -25,7 +25,9 @@ class Walk {
       const auto self = static_cast<std::int32_t>(i);
       tree_[i] = {kInf, kInf, 0, {self, self}};
       if (i < nodes_) {
-        tree_[i] = {cuts.low[i], cuts.high[i], static_cast<std::int32_t>(cuts.axes[i]),
+        tree_[i] = {cuts.low[i],
+                    cuts.high[i],
+                    static_cast<std::int32_t>(cuts.axes[i]),
                     {number(cuts.above[i]), number(cuts.below[i])}};
       }
     }

@@ -47,10 +47,39 @@ struct TileBox {
   }
   bool near(const double* p) const {
     bool close = false;
-    for (std::size_t k = 0; k < D; ++k) close = close | (p[k] <= near_low[k]) | (p[k] >= near_high[k]);
+    for (std::size_t k = 0; k < D; ++k)
+      close = close | (p[k] <= near_low[k]) | (p[k] >= near_high[k]);
     return close;
   }
 };
+
+// The points of a tile, ascending by row, and for each the lowest row of an equal one.
+template <class Row>
+struct TilePoints {
+  Columns<Row> rows, representative;
+  Columns<double> points;
+};
+
+// `real` points; `representative` may be null, if all are distinct.
+template <class Row, std::size_t D>
+TilePoints<Row> tile_points(const double* v, std::size_t real, const Row* rows,
+                            const std::int32_t* representative, const TileBox<D>& box) {
+  std::vector<std::uint8_t> inside(real);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < real; ++i) count += inside[i] = box.holds(v + D * i);
+  TilePoints<Row> out{{1, count}, {1, count}, {D, count}};
+  std::size_t to = 0;
+  for (std::size_t i = 0; i < real; ++i) {
+    if (inside[i] == 0) continue;
+    out.rows.column(0)[to] = rows[i];
+    out.representative.column(0)[to] =
+        representative == nullptr ? rows[i] : rows[representative[i]];
+    for (std::size_t k = 0; k < D; ++k) out.points.column(k)[to] = v[D * i + k];
+    ++to;
+  }
+  out.rows.count = out.representative.count = out.points.count = count;
+  return out;
+}
 
 inline void join(DisjointSets& sets, std::int32_t i, std::int32_t j) {
   const std::int32_t a = sets.root(i), b = sets.root(j);

@@ -145,7 +145,8 @@ class Maker {
     Id h[EdgeBlock::kSize];
     for (std::size_t t = 0; t < mesh_.triangles;) {
       std::size_t count = 0;
-      for (const std::size_t end = std::min(t + TriangleBlock::kSize, mesh_.triangles); t < end; ++t) {
+      for (const std::size_t end = std::min(t + TriangleBlock::kSize, mesh_.triangles); t < end;
+           ++t) {
         count += collect(t, h + count);
       }
       for (std::size_t i = 0; i < count; ++i) {
@@ -175,7 +176,8 @@ class Maker {
 
   void keep_edge(Id h, double half_length) {
     const Id g = mesh_.twin(h), base = Mesh2::base(h), other = Mesh2::base(g);
-    const std::size_t s = static_cast<std::size_t>(base) / 8, t = static_cast<std::size_t>(other) / 8;
+    const std::size_t s = static_cast<std::size_t>(base) / 8,
+                      t = static_cast<std::size_t>(other) / 8;
     const bool attached = (mesh_.slot[base + 7] == (h & 3)) | (mesh_.slot[other + 7] == (g & 3));
     const double value[2] = {half_length, std::min(radius_[s], radius_[t])};
     const Id u = mesh_.origin(h), v = mesh_.origin(g);
@@ -209,7 +211,8 @@ class Maker {
       if ((i & 0xffff) == 0) job.poll();
       if ((place_[i] & kKnown) == 0) continue;
       const Id root = vertices_.root(static_cast<Id>(i));  // comes first
-      label[i] = root == static_cast<Id>(i) ? border.count++ : label[static_cast<std::size_t>(root)];
+      label[i] =
+          root == static_cast<Id>(i) ? border.count++ : label[static_cast<std::size_t>(root)];
       if ((place_[i] & kShared) == 0) continue;
       border.keys.push_back(row_[i]);
       border.labels.push_back(label[i]);

@@ -19,9 +19,9 @@ template <class Row>
 struct TileShare2 {
   Columns<Row> vertices, edges, triangles;
   Columns<double> edge_radii, triangle_radii;
-  Columns<std::int8_t> edge_kinds;      // SimplexKind: 1, and one more for each coface
-  std::vector<std::int32_t> boundary;   // (b, 3), rows of the tile's input: an edge with its
-                                        // triangle on the left, and the third corner
+  Columns<std::int8_t> edge_kinds;             // SimplexKind: 1, and one more for each coface
+  std::vector<std::int32_t> boundary;          // (b, 3), rows of the tile's input: an edge with its
+                                               // triangle on the left, and the third corner
   std::vector<std::int32_t> boundary_regions;  // (b,)
   std::vector<double> region_sizes;
   TileBorder<Row> components, regions;

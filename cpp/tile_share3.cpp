@@ -289,7 +289,8 @@ class Maker {
       if ((i & 0xffff) == 0) job.poll();
       if (!has(i, kKnown)) continue;
       const Id root = vertices_.root(static_cast<Id>(i));
-      label[i] = root == static_cast<Id>(i) ? border.count++ : label[static_cast<std::size_t>(root)];
+      label[i] =
+          root == static_cast<Id>(i) ? border.count++ : label[static_cast<std::size_t>(root)];
       if (!has(i, kShared)) continue;
       border.keys.push_back(view_.rows[i]);
       border.labels.push_back(label[i]);

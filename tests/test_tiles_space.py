@@ -74,7 +74,10 @@ def clouds():
         "sphere in a sphere": (np.concatenate((ball, ball / 4)), (0.25,)),
         "duplicates": (np.round(rng.random((700, 3)) * 6), (0.72, 0.87)),
         "plane": (np.column_stack((rng.random((300, 2)), np.zeros(300))), (0.05, 0.1)),
-        "oblique plane": (rng.integers(0, 4096, (500, 2)) @ [(3, 1, 2), (1, -2, 5)] / 4096, (0.2, 0.4)),
+        "oblique plane": (
+            rng.integers(0, 4096, (500, 2)) @ [(3, 1, 2), (1, -2, 5)] / 4096,
+            (0.2, 0.4),
+        ),
         "line": (np.outer(np.arange(40.0), (1, 2, 3)), (1.0, 2.0)),
     }
 

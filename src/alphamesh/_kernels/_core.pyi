@@ -256,6 +256,7 @@ class Recycling:
     def __init__(self) -> None: ...
 
 _Border = tuple[int, NDArray[np.int64], NDArray[np.int32]]
+_Points = tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]
 
 def tile2(
     points: NDArray[np.float64],
@@ -265,7 +266,7 @@ def tile2(
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> tuple[
-    NDArray[np.int32] | None,
+    _Points,
     NDArray[np.int64],
     NDArray[np.int64],
     NDArray[np.float64],
@@ -294,6 +295,7 @@ def tile_share3(
     radius: float,
     progress: Callable[[float], object] | None,
 ) -> tuple[
+    _Points,
     NDArray[np.int64],
     NDArray[np.int64],
     NDArray[np.float64],

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,6 +25,8 @@ __all__ = [
 ]
 
 Border = tuple[int, "CountArray", "IntArray"]
+Points = tuple["CountArray", "FloatArray", "CountArray"]
+"""Rows, coordinates column by column, and the lowest rows with the same coordinates"""
 
 Recycling = _core.Recycling
 """While such an object lives, memory that kernels release is kept for the next ones."""
@@ -32,8 +35,8 @@ Recycling = _core.Recycling
 class Share2(NamedTuple):
     """What one tile owns of a complex in the plane; rows are those of the whole cloud."""
 
-    representative: IntArray | None
-    """(n,) the lowest row of the input with the same coordinates; None if all are distinct"""
+    own: Points
+    """the points in the box, duplicates and all"""
     vertices: CountArray
     """(m_0,) ascending"""
     edges: CountArray
@@ -82,19 +85,26 @@ def tile2(  # noqa: PLR0913, PLR0917 (a tile, its points and the radius)
     """
     threads = resolve_threads(threads)
     _check_progress(progress)
-    *arrays, components, regions = _core.tile2(
-        points, np.ascontiguousarray(rows), bounds, radius, threads, progress
+    share = Share2(
+        *_core.tile2(points, np.ascontiguousarray(rows), bounds, radius, threads, progress)
     )
-    for array in (*arrays, *components[1:], *regions[1:]):
-        if array is not None:
-            array.setflags(write=False)
-    count, keys, labels = components
-    return Share2(*arrays, (count, keys[:, np.newaxis], labels), regions)
+    _close(share)
+    return share
+
+
+def _close(share: Iterable[Any]) -> None:
+    """Close arrays, and those in tuples, to writing."""
+    for part in share:
+        if isinstance(part, np.ndarray):
+            part.setflags(write=False)
+        elif isinstance(part, tuple):
+            _close(part)
 
 
 class Share3(NamedTuple):
     """What one tile owns of a complex in space; see :class:`Share2`."""
 
+    own: Points
     vertices: CountArray
     edges: CountArray
     edge_radii: FloatArray
@@ -148,26 +158,26 @@ def tile_share3(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
         simplices,
         radii,
     )
-    *arrays, components, regions, fronts = _core.tile_share3(
-        points,
-        real,
-        np.ascontiguousarray(rows),
-        representative,
-        edges,
-        edge_radii,
-        triangles,
-        triangle_radii,
-        triangle_tetrahedra,
-        tetrahedra,
-        cell_radii,
-        bounds,
-        radius,
-        progress,
+    share = Share3(
+        *_core.tile_share3(
+            points,
+            real,
+            np.ascontiguousarray(rows),
+            representative,
+            edges,
+            edge_radii,
+            triangles,
+            triangle_radii,
+            triangle_tetrahedra,
+            tetrahedra,
+            cell_radii,
+            bounds,
+            radius,
+            progress,
+        )
     )
-    for array in (*arrays, *components[1:], *regions[1:], *fronts[1:]):
-        array.setflags(write=False)
-    count, keys, labels = components
-    return Share3(*arrays, (count, keys[:, np.newaxis], labels), regions, fronts)
+    _close(share)
+    return share
 
 
 def spread(  # noqa: PLR0913, PLR0917 (the arrays of a tree)

@@ -64,8 +64,12 @@ def command() -> None:
     help="About how many points a tile shall have.",
 )  # fmt: skip
 @click.option(
+    "--threads", type=click.IntRange(1), metavar="N",
+    help="Work at N tiles at a time in this process.  [default: one for each CPU]",
+)  # fmt: skip
+@click.option(
     "--workers", type=click.IntRange(1), metavar="N",
-    help="Work with N processes of this machine.  [default: in this process]",
+    help="Work with N processes of Dask on this machine.",
 )  # fmt: skip
 @click.option("--cluster", metavar="ADDRESS", help="Work on this Dask cluster.")
 @click.option("--overwrite", is_flag=True, help="Replace another run in the folder.")
@@ -78,6 +82,7 @@ def _run(  # noqa: PLR0913, PLR0917 (one option each)
     columns: str | None,
     dimension: int | None,
     tile_points: int,
+    threads: int | None,
     workers: int | None,
     cluster: str | None,
     overwrite: bool,
@@ -90,8 +95,8 @@ def _run(  # noqa: PLR0913, PLR0917 (one option each)
     """
     from alphamesh.tiles import choose_radius, dataset, run
 
-    if workers is not None and cluster is not None:
-        raise click.UsageError("give either --workers or --cluster, not both")
+    if sum(choice is not None for choice in (threads, workers, cluster)) > 1:
+        raise click.UsageError("give one of --threads, --workers and --cluster, not several")
     with Steps(quiet=quiet) as steps:
         found = dataset(data, columns=columns, dimension=dimension)
         reason = "Given on the command line."
@@ -104,7 +109,8 @@ def _run(  # noqa: PLR0913, PLR0917 (one option each)
         with steps.step(f"Building tiles of {counted(found.count, 'point')}") as done:
             result = run(
                 found, wanted, folder, tile_points=tile_points, overwrite=overwrite,
-                cluster="local" if workers else cluster, processes=workers, progress=done,
+                cluster="local" if workers else cluster, processes=workers, threads=threads,
+                progress=done,
             )  # fmt: skip
     _tell(result, as_json, {"reason": reason})
 

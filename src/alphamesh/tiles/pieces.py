@@ -19,7 +19,7 @@ from alphamesh.tiles.labels import Border
 from alphamesh.tiles.tiling import Tiling, halo_width
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray, KindArray
+    from alphamesh._arrays import CountArray, FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
 
 __all__ = ["Boundary", "Piece", "solve"]
@@ -38,14 +38,14 @@ class Boundary(Record):
         The last corner of the cell.
     points : (b, d + 1, d) float64
         Coordinates of the facet and the apex.
-    regions : (b,) int64
+    regions : (b,) int32
         Number of the region among those that the tile knows.
     """
 
     facets: CountArray
     apexes: CountArray
     points: FloatArray
-    regions: CountArray
+    regions: IntArray
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,7 +59,8 @@ class Piece(Record):
     ----------
     tile : int
     rows : (n,) int64
-        The tile's own points, ascending.
+        The tile's own points, ascending. All rows of the cloud are int32 instead if those
+        given to :func:`solve` are.
     points : (n, d) float64
     representative : (n,) int64
         The lowest row with the same coordinates.
@@ -133,9 +134,8 @@ def solve(  # noqa: PLR0913 (a tile, its points and the radius)
     Piece
     """
     bounds = tiling.bounds(tile, radius)
-    inside = ((points >= bounds[0]) & (points < bounds[1])).all(axis=1)
     solved = _in_space if tiling.dimension == 3 else _in_plane
-    return solved(tile, rows, points, bounds, inside, radius, threads, progress)
+    return solved(tile, rows, points, bounds, radius, threads, progress)
 
 
 def _in_plane(  # noqa: PLR0913, PLR0917 (see solve)
@@ -143,7 +143,6 @@ def _in_plane(  # noqa: PLR0913, PLR0917 (see solve)
     rows: CountArray,
     points: FloatArray,
     bounds: FloatArray,
-    inside: BoolArray,
     radius: float,
     threads: int | None,
     progress: Progress | None,
@@ -155,9 +154,7 @@ def _in_plane(  # noqa: PLR0913, PLR0917 (see solve)
     edges = share.boundary[:, :2]
     return Piece(
         tile,
-        read_only(rows.compress(inside)),
-        read_only(points.compress(inside, axis=0)),
-        _representatives(rows, inside, share.representative),
+        *share.own,
         (share.vertices[:, np.newaxis], share.edges, share.triangles),
         (read_only(np.zeros(len(share.vertices))), share.edge_radii, share.triangle_radii),
         share.edge_kinds,
@@ -175,20 +172,11 @@ def _in_plane(  # noqa: PLR0913, PLR0917 (see solve)
     )
 
 
-def _representatives(
-    rows: CountArray, inside: BoolArray, representative: IntArray | None
-) -> CountArray:
-    if representative is not None:
-        rows = rows.take(representative)
-    return read_only(rows.compress(inside))
-
-
 def _in_space(  # noqa: PLR0913, PLR0917 (see solve)
     tile: int,
     rows: CountArray,
     points: FloatArray,
     bounds: FloatArray,
-    inside: BoolArray,
     radius: float,
     threads: int | None,
     progress: Progress | None,
@@ -213,9 +201,7 @@ def _in_space(  # noqa: PLR0913, PLR0917 (see solve)
     facets = share.boundary[:, :3]
     return Piece(
         tile,
-        read_only(rows.compress(inside)),
-        read_only(points.compress(inside, axis=0)),
-        _representatives(rows, inside, found.representative[: len(points)]),
+        *share.own,
         (share.vertices[:, np.newaxis], share.edges, share.triangles, share.tetrahedra),
         (
             read_only(np.zeros(len(share.vertices))),

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from io import BufferedReader
+from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -56,7 +58,7 @@ class Spool:
         points : (k, d) float64
         """
         parts = [
-            (memoryview(points[a:b]).cast("B"), memoryview(rows[a:b]).cast("B"))
+            (points[a:b].data.cast("B"), rows[a:b].data.cast("B"))
             for a, b in zip(offsets[:-1].tolist(), offsets[1:].tolist(), strict=True)
             if a < b
         ]
@@ -75,8 +77,8 @@ class Spool:
                 tiles = int.from_bytes(file.read(8), "little")
                 offsets, sums = self._table(file, tiles)
                 return all(
-                    self._read(file, tiles, start, end, int(total)) is not None
-                    for start, end, total in zip(offsets, offsets[1:], sums, strict=False)
+                    self._read(file, tiles, part, int(total)) is not None
+                    for part, total in zip(pairwise(offsets.tolist()), sums, strict=True)
                 )
         except (OSError, ValueError):
             return False
@@ -108,7 +110,7 @@ class Spool:
         for chunk, first_row in enumerate(first_rows.tolist()):
             with self.path(chunk).open("rb") as file:
                 offsets, sums = self._table(file, tiles, tile, 1)
-                found = self._read(file, tiles, *offsets.tolist(), int(sums[0]))
+                found = self._read(file, tiles, (offsets[0], offsets[1]), int(sums[0]))
             if found is None:
                 raise FileReadError(f"{self.path(chunk)} is damaged; run the tiles again")
             rows.append(np.add(found[0], first_row, dtype=dtype))
@@ -121,7 +123,7 @@ class Spool:
             file.unlink()
 
     def _table(
-        self, file: BinaryIO, tiles: int, first: int = 0, count: int | None = None
+        self, file: BufferedReader, tiles: int, first: int = 0, count: int | None = None
     ) -> tuple[CountArray, Any]:
         """Read where some tiles begin and end, and their checksums."""
         count = tiles if count is None else count
@@ -134,21 +136,18 @@ class Spool:
         return offsets, sums
 
     def _read(
-        self, file: BinaryIO, tiles: int, start: int, end: int, total: int
+        self, file: BufferedReader, tiles: int, part: tuple[int, int], total: int
     ) -> tuple[IntArray, FloatArray] | None:
         """Read rows and points of one tile; None if they are not what was written."""
+        start, end = part
         count = end - start
         if count == 0:
             return np.empty(0, dtype=np.int32), np.empty((0, self.dimension))
         file.seek(8 * (2 + 2 * tiles) + (self._point + _ROW) * start)
         points, rows = np.empty((count, self.dimension)), np.empty(count, dtype=np.int32)
-        views = memoryview(points).cast("B"), memoryview(rows).cast("B")
-        whole = all(_fill(file, view) for view in views)
+        views = points.data.cast("B"), rows.data.cast("B")
+        whole = all(file.readinto(view) == len(view) for view in views)
         return (rows, points) if whole and _sum_of(*views) == total else None
-
-
-def _fill(file: BinaryIO, view: memoryview) -> bool:
-    return file.readinto(view) == len(view)  # type: ignore[attr-defined]
 
 
 def _sum_of(points: memoryview, rows: memoryview) -> int:
