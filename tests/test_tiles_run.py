@@ -142,6 +142,29 @@ def test_a_damaged_tile_is_made_again(tmp_path, data, points):
     assert contents(out) == before
 
 
+def test_damage_of_unfinished_work_is_repaired(tmp_path, data, points):
+    """As a power failure may leave it: names are there, contents are not."""
+    whole, out = tmp_path / "whole", tmp_path / "out"
+    tiles.run(data, RADIUS, whole, tile_points=900)
+    tiles.run(data, RADIUS, out, tile_points=900, keep_chunks=True)
+    (out / "tiles" / "000003.json").write_bytes(bytes(100))
+    (out / "tiles" / "000004.npz").write_bytes(b"")
+    chunk = sorted((out / "chunks").iterdir())[1]
+    chunk.write_bytes(bytes(chunk.stat().st_size))
+    state = tiles.status(out)
+    assert state.tiles_done == 5
+    with pytest.raises(FileReadError, match="tile 4 is missing or damaged"):
+        tiles.TiledComplex(out).polygons()
+    tiles.run(data, RADIUS, out, tile_points=900)
+    assert contents(out) == contents(whole)
+
+
+def test_threads_change_nothing(tmp_path, data):
+    for threads in (1, 3):
+        tiles.run(data, RADIUS, tmp_path / str(threads), tile_points=900, threads=threads)
+    assert contents(tmp_path / "1") == contents(tmp_path / "3")
+
+
 KILLED = """
     import sys, os, signal
     from alphamesh import tiles

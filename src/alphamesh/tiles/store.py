@@ -108,14 +108,10 @@ class Store:
 
     def has_tile(self, tile: int) -> bool:
         """Tell whether a tile is complete, by its checksums."""
-        try:
-            record = self._json(self._record(tile))
-            return record is not None and all(
-                _checksum(self.folder / name) == known
-                for name, known in record["files"].items()
-            )
-        except (FileReadError, OSError):
-            return False
+        sums = self._sums(tile)
+        return bool(sums) and all(
+            _checksum(self.folder / name) == known for name, known in sums.items()
+        )
 
     def write_tile(self, piece: Piece) -> None:
         """Keep a finished tile: its simplices, and what the whole needs to know of it."""
@@ -136,9 +132,7 @@ class Store:
             If the tile is not finished, or this file of it is damaged.
         """
         name = self._summary(tile)
-        record = self._json(self._record(tile))
-        path = self.folder / name
-        if record is None or not path.exists() or _checksum(path) != record["files"][name]:
+        if _checksum(self.folder / name) != self._sums(tile).get(name, ""):
             raise FileReadError(
                 f"{self.folder}: tile {tile} is missing or damaged; run it again"
             )
@@ -148,6 +142,14 @@ class Store:
 
     def _summary(self, tile: int) -> str:
         return f"tiles/{tile:06}.npz"
+
+    def _sums(self, tile: int) -> dict[str, str]:
+        """Return the checksums of a tile's files; none if it has no record, or a damaged one."""
+        try:
+            record = self._json(self._record(tile))
+        except FileReadError:
+            return {}
+        return {} if record is None else record["files"]
 
     def _record(self, tile: int) -> str:
         return f"tiles/{tile:06}.json"
@@ -201,8 +203,10 @@ class Store:
             np.savez(file, **arrays)
 
 
-def _checksum(path: Path) -> str:
-    """Return the checksum of a file as it is read back."""
+def _checksum(path: Path) -> str | None:
+    """Return the checksum of a file as it is read back; None if there is none."""
+    if not path.exists():
+        return None
     block = memoryview(bytearray(_BLOCK))
     total = 0
     with path.open("rb", buffering=0) as file:
