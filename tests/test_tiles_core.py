@@ -116,7 +116,7 @@ def test_points_come_back_from_the_spool(tmp_path):
 def test_damage_of_the_spool_is_seen(tmp_path):
     spool, _ = spooled(tmp_path / "chunks", chunks=1)
     whole = spool.path(0).read_bytes()
-    for place in (len(whole) - 3, len(whole) // 2, 70, 0):
+    for place in (len(whole) - 3, len(whole) // 2, 70, 22, 14, 7, 0):
         damaged = bytearray(whole)
         damaged[place] ^= 0x40
         spool.path(0).write_bytes(damaged)

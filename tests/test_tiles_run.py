@@ -117,7 +117,7 @@ def test_a_run_goes_on_where_it_was(tmp_path, data, points):
             raise StopError
 
     with pytest.raises(StopError):
-        tiles.run(data, RADIUS, out, tile_points=900, progress=stop_late)
+        tiles.run(data, RADIUS, out, tile_points=900, threads=1, progress=stop_late)
     state = tiles.status(out)
     assert 0 < state.tiles_done < state.tiles == 7
     assert not state.finished

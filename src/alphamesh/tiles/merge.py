@@ -91,7 +91,7 @@ def part_of(piece: Piece) -> Part:
     return Part(
         len(piece.rows),
         read_only(np.array([len(rows) for rows in piece.simplices])),
-        read_only(np.bincount(piece.facet_kinds, minlength=len(SimplexKind))),
+        read_only(np.array([np.count_nonzero(piece.facet_kinds == k) for k in SimplexKind])),
         piece.boundary_size,
         piece.region_sizes,
         piece.components,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from io import BufferedReader
 from itertools import pairwise
 from pathlib import Path
@@ -75,12 +76,15 @@ class Spool:
         try:
             with self.path(chunk).open("rb") as file:
                 tiles = int.from_bytes(file.read(8), "little")
-                offsets, sums = self._table(file, tiles)
+                offsets, sums = self._table(file, tiles, 0, tiles)
+                parts = zip(pairwise(offsets.tolist()), sums.tolist(), strict=True)
                 return all(
-                    self._read(file, tiles, part, int(total)) is not None
-                    for part, total in zip(pairwise(offsets.tolist()), sums, strict=True)
+                    self._read(file, tiles, a, np.empty((b - a, self.dimension)), total)
+                    is not None
+                    for (a, b), total in parts
+                    if a != b
                 )
-        except (OSError, ValueError):
+        except (OSError, FileReadError):
             return False
 
     def points_of(
@@ -106,16 +110,25 @@ class Spool:
         FileReadError
             If a file is damaged.
         """
-        rows, points = [np.empty(0, dtype=dtype)], [np.empty((0, self.dimension))]
-        for chunk, first_row in enumerate(first_rows.tolist()):
+        parts = []
+        for chunk in range(len(first_rows)):
             with self.path(chunk).open("rb") as file:
                 offsets, sums = self._table(file, tiles, tile, 1)
-                found = self._read(file, tiles, (offsets[0], offsets[1]), int(sums[0]))
+            parts.append((int(offsets[0]), int(offsets[1]), int(sums[0])))
+        count = sum(end - start for start, end, _ in parts)
+        rows, points = np.empty(count, dtype=dtype), np.empty((count, self.dimension))
+        done = 0
+        for chunk, (start, end, total) in enumerate(parts):
+            if start == end:
+                continue
+            part = slice(done, done + end - start)
+            with self.path(chunk).open("rb") as file:
+                found = self._read(file, tiles, start, points[part], total)
             if found is None:
                 raise FileReadError(f"{self.path(chunk)} is damaged; run the tiles again")
-            rows.append(np.add(found[0], first_row, dtype=dtype))
-            points.append(found[1])
-        return np.concatenate(rows), np.concatenate(points)
+            np.add(found, first_rows[chunk], out=rows[part], casting="unsafe")
+            done = part.stop
+        return rows, points
 
     def drop(self) -> None:
         """Delete all files."""
@@ -123,31 +136,36 @@ class Spool:
             file.unlink()
 
     def _table(
-        self, file: BufferedReader, tiles: int, first: int = 0, count: int | None = None
+        self, file: BufferedReader, tiles: int, first: int, count: int
     ) -> tuple[CountArray, Any]:
-        """Read where some tiles begin and end, and their checksums."""
-        count = tiles if count is None else count
-        file.seek(8 * (1 + first))
-        offsets = np.frombuffer(file.read(8 * (count + 1)), dtype=np.int64)
-        file.seek(8 * (2 + tiles + first))
-        sums = np.frombuffer(file.read(8 * count), dtype=np.uint64)
-        if len(offsets) != count + 1 or len(sums) != count:
-            raise ValueError("the file is too short")
-        return offsets, sums
+        """Read where some tiles begin and end, and their checksums.
+
+        Raises
+        ------
+        FileReadError
+            If no file of this length can begin so.
+        """
+        size = os.fstat(file.fileno()).st_size
+        header = 8 * (2 + 2 * tiles)
+        if size >= header:
+            file.seek(8 * (1 + first))
+            offsets = np.frombuffer(file.read(8 * (count + 1)), dtype=np.int64)
+            file.seek(8 * (2 + tiles + first))
+            sums = np.frombuffer(file.read(8 * count), dtype=np.uint64)
+            most = (size - header) // (self._point + _ROW)
+            if offsets[0] >= 0 and (np.diff(offsets) >= 0).all() and offsets[-1] <= most:
+                return offsets, sums
+        raise FileReadError(f"{file.name} is damaged; run the tiles again")
 
     def _read(
-        self, file: BufferedReader, tiles: int, part: tuple[int, int], total: int
-    ) -> tuple[IntArray, FloatArray] | None:
-        """Read rows and points of one tile; None if they are not what was written."""
-        start, end = part
-        count = end - start
-        if count == 0:
-            return np.empty(0, dtype=np.int32), np.empty((0, self.dimension))
+        self, file: BufferedReader, tiles: int, start: int, points: FloatArray, total: int
+    ) -> IntArray | None:
+        """Read points of one tile and return their rows; None if they are not as written."""
         file.seek(8 * (2 + 2 * tiles) + (self._point + _ROW) * start)
-        points, rows = np.empty((count, self.dimension)), np.empty(count, dtype=np.int32)
+        rows = np.empty(len(points), dtype=np.int32)
         views = points.data.cast("B"), rows.data.cast("B")
         whole = all(file.readinto(view) == len(view) for view in views)
-        return (rows, points) if whole and _sum_of(*views) == total else None
+        return rows if whole and _sum_of(*views) == total else None
 
 
 def _sum_of(points: memoryview, rows: memoryview) -> int:

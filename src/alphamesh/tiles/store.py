@@ -144,7 +144,7 @@ class Store:
         return f"tiles/{tile:06}.npz"
 
     def _sums(self, tile: int) -> dict[str, str]:
-        """Return the checksums of a tile's files; none if it has no record, or a damaged one."""
+        """Return the checksums of a tile's files; none without a record that is whole."""
         try:
             record = self._json(self._record(tile))
         except FileReadError:
