@@ -203,7 +203,7 @@ def _costs(folder: Path, kind: Kind, tile_points: int) -> str:
     )
     store = Store(folder / "tiles")
     store.write_manifest({"dimension": kind.dimension})
-    spool = store.spool(kind.dimension)
+    spool = store.spool(tiling)
     first = np.array([chunk.first_row for chunk in data.chunks])
     recycling = Recycling()  # as in a run
 
@@ -212,7 +212,7 @@ def _costs(folder: Path, kind: Kind, tile_points: int) -> str:
             spool.write(chunk.number, *tiling.spread(chunk.read(), kind.radius))
 
     def read() -> tuple[np.ndarray, np.ndarray]:
-        return spool.points_of(tile, len(tiling), first, np.int32)
+        return spool.points_of(tile, first, np.int32)
 
     spreading, _ = _timed(spread)
     reading, (rows, points) = _timed(read)

@@ -89,7 +89,7 @@ def test_rows_of_the_cloud_may_be_long(dimension):
 def spooled(folder, chunks=3):
     rng = np.random.default_rng(4)
     folder.mkdir()
-    spool = Spool(folder, 2)
+    spool = Spool(folder, 2, 3)
     offsets = np.array([0, 40, 40, 100])
     content = []
     for chunk in range(chunks):
@@ -103,7 +103,7 @@ def test_points_come_back_from_the_spool(tmp_path):
     spool, content = spooled(tmp_path / "chunks")
     first_rows = np.array([0, 1000, 2000])
     for tile, part in enumerate((slice(0, 40), slice(0, 0), slice(40, 100))):
-        rows, points = spool.points_of(tile, 3, first_rows, np.int64)
+        rows, points = spool.points_of(tile, first_rows, np.int64)
         np.testing.assert_array_equal(points, np.concatenate([p[part] for _, p in content]))
         wanted = [r[part] + first for (r, _), first in zip(content, first_rows, strict=True)]
         np.testing.assert_array_equal(rows, np.concatenate(wanted))
@@ -121,12 +121,14 @@ def test_damage_of_the_spool_is_seen(tmp_path):
         damaged[place] ^= 0x40
         spool.path(0).write_bytes(damaged)
         assert not spool.holds(0)
+    spool.path(0).write_bytes(bytes(len(whole)))
+    assert not spool.holds(0)
     for length in (0, 5, 40, len(whole) - 1):
         spool.path(0).write_bytes(whole[:length])
         assert not spool.holds(0)
     spool.path(0).write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
     with pytest.raises(FileReadError, match=r"000000\.points is damaged"):
-        spool.points_of(2, 3, np.zeros(1, dtype=np.int64), np.int32)
+        spool.points_of(2, np.zeros(1, dtype=np.int64), np.int32)
 
 
 @pytest.mark.parametrize("threads", [1, 3])

@@ -18,7 +18,7 @@ from alphamesh.tiles.dataset import Chunk, Dataset
 from alphamesh.tiles.merge import merge
 from alphamesh.tiles.pieces import solve
 from alphamesh.tiles.store import Store
-from alphamesh.tiles.tiling import plan
+from alphamesh.tiles.tiling import Tiling, plan
 from alphamesh.tiles.workers import Workers, go_on, workers_of
 
 if TYPE_CHECKING:
@@ -100,11 +100,11 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
     told = _unheard if progress is None else progress
     with workers_of(cluster, processes, threads) as workers:
         _plan(store, data, int(tile_points), workers, told)
-        tiles = _solve(store, data, radius, workers, told)
-    parts = [store.part(tile)[0] for tile in range(tiles)]
+        tiling = _solve(store, data, radius, workers, told)
+    parts = [store.part(tile)[0] for tile in range(len(tiling))]
     store.write_summary(merge(parts, radius)[0])
     if not keep_chunks:
-        store.spool(data.dimension).drop()
+        store.spool(tiling).drop()
     told(1.0)
     return TiledComplex(store.folder)
 
@@ -169,7 +169,9 @@ def _plan(
     store.write_plan(plan(sample, tiles))
 
 
-def _solve(store: Store, data: Dataset, radius: float, workers: Workers, told: Progress) -> int:
+def _solve(
+    store: Store, data: Dataset, radius: float, workers: Workers, told: Progress
+) -> Tiling:
     tiling = store.plan()
     assert tiling is not None
     done = dict(workers.each(partial(_has_tile, folder=store.folder), range(len(tiling))))
@@ -190,7 +192,7 @@ def _solve(store: Store, data: Dataset, radius: float, workers: Workers, told: P
     )
     for _ in _counted(workers.each(work, tiles), len(tiles), told, _SPREAD, _SOLVED):
         pass
-    return len(tiling)
+    return tiling
 
 
 def _counted(
@@ -219,7 +221,7 @@ def _spread(chunk: Chunk, folder: Path, radius: float) -> None:
     store = Store(folder)
     tiling = store.plan()
     assert tiling is not None
-    spool = store.spool(tiling.dimension)
+    spool = store.spool(tiling)
     if not spool.holds(chunk.number):
         spool.write(chunk.number, *tiling.spread(chunk.read(), radius, go_on))
 
@@ -231,7 +233,7 @@ def _solve_tile(
     store = Store(folder)
     tiling = store.plan()
     assert tiling is not None
-    spool = store.spool(tiling.dimension)
-    rows, points = spool.points_of(tile, len(tiling), first_rows, row_type)
+    spool = store.spool(tiling)
+    rows, points = spool.points_of(tile, first_rows, row_type)
     store.write_tile(solve(tiling, tile, rows, points, radius, progress=go_on))
     return tile

@@ -26,20 +26,23 @@ _ROW = 4
 class Spool:
     """Files of points, each sorted by tile.
 
-    A file begins with the number of tiles, and for each tile where its points begin and a
-    checksum; then come the points of a tile and their rows in the chunk, tile by tile. It
-    is not forced to the disk, so that the checksums must tell whether all of it is there.
+    A file begins with a table, after a checksum of it: for each tile where its points begin,
+    then for each a checksum of them. The points of a tile and their rows in the chunk come
+    next, tile by tile. Files are not forced to the disk, so that checksums must tell
+    whether all of it is there.
 
     Parameters
     ----------
     folder : Path
-    dimension : int
+    dimension, tiles : int
     """
 
-    def __init__(self, folder: Path, dimension: int) -> None:
+    def __init__(self, folder: Path, dimension: int, tiles: int) -> None:
         self.folder = folder
         self.dimension = dimension
-        self._point = 8 * dimension
+        self.tiles = tiles
+        self._point = 8 * dimension + _ROW
+        self._header = 8 * (2 + 2 * tiles)
 
     def path(self, chunk: int) -> Path:
         """Return the file of a chunk."""
@@ -66,8 +69,8 @@ class Spool:
         sums = np.zeros(len(offsets) - 1, dtype=np.uint64)
         sums[np.flatnonzero(np.diff(offsets))] = [_sum_of(*part) for part in parts]
         with atomic_path(self.path(chunk), forced=False) as path, path.open("wb") as file:
-            file.write(np.array([len(offsets) - 1]).tobytes())
-            file.write(offsets.tobytes() + sums.tobytes())
+            table = offsets.tobytes() + sums.tobytes()
+            file.write(checksum(table).to_bytes(8, "little") + table)
             for part in parts:
                 file.writelines(part)
 
@@ -75,12 +78,13 @@ class Spool:
         """Tell whether the points of a chunk are there, by their checksums."""
         try:
             with self.path(chunk).open("rb") as file:
-                tiles = int.from_bytes(file.read(8), "little")
-                offsets, sums = self._table(file, tiles, 0, tiles)
+                total = int.from_bytes(file.read(8), "little")
+                if checksum(file.read(self._header - 8)) != total:
+                    return False
+                offsets, sums = self._table(file, 0, self.tiles)
                 parts = zip(pairwise(offsets.tolist()), sums.tolist(), strict=True)
                 return all(
-                    self._read(file, tiles, a, np.empty((b - a, self.dimension)), total)
-                    is not None
+                    self._read(file, a, np.empty((b - a, self.dimension)), total) is not None
                     for (a, b), total in parts
                     if a != b
                 )
@@ -88,13 +92,13 @@ class Spool:
             return False
 
     def points_of(
-        self, tile: int, tiles: int, first_rows: CountArray, dtype: Any
+        self, tile: int, first_rows: CountArray, dtype: Any
     ) -> tuple[CountArray, FloatArray]:
         """Return the points of a tile and its halo, ascending by row.
 
         Parameters
         ----------
-        tile, tiles : int
+        tile : int
         first_rows : (c,) int64
             The first row of each chunk.
         dtype : dtype
@@ -113,7 +117,7 @@ class Spool:
         parts = []
         for chunk in range(len(first_rows)):
             with self.path(chunk).open("rb") as file:
-                offsets, sums = self._table(file, tiles, tile, 1)
+                offsets, sums = self._table(file, tile, 1)
             parts.append((int(offsets[0]), int(offsets[1]), int(sums[0])))
         count = sum(end - start for start, end, _ in parts)
         rows, points = np.empty(count, dtype=dtype), np.empty((count, self.dimension))
@@ -123,7 +127,7 @@ class Spool:
                 continue
             part = slice(done, done + end - start)
             with self.path(chunk).open("rb") as file:
-                found = self._read(file, tiles, start, points[part], total)
+                found = self._read(file, start, points[part], total)
             if found is None:
                 raise FileReadError(f"{self.path(chunk)} is damaged; run the tiles again")
             np.add(found, first_rows[chunk], out=rows[part], casting="unsafe")
@@ -135,9 +139,7 @@ class Spool:
         for file in self.folder.glob("*.points"):
             file.unlink()
 
-    def _table(
-        self, file: BufferedReader, tiles: int, first: int, count: int
-    ) -> tuple[CountArray, Any]:
+    def _table(self, file: BufferedReader, first: int, count: int) -> tuple[CountArray, Any]:
         """Read where some tiles begin and end, and their checksums.
 
         Raises
@@ -146,22 +148,21 @@ class Spool:
             If no file of this length can begin so.
         """
         size = os.fstat(file.fileno()).st_size
-        header = 8 * (2 + 2 * tiles)
-        if size >= header:
+        if size >= self._header:
             file.seek(8 * (1 + first))
             offsets = np.frombuffer(file.read(8 * (count + 1)), dtype=np.int64)
-            file.seek(8 * (2 + tiles + first))
+            file.seek(8 * (2 + self.tiles + first))
             sums = np.frombuffer(file.read(8 * count), dtype=np.uint64)
-            most = (size - header) // (self._point + _ROW)
+            most = (size - self._header) // self._point
             if offsets[0] >= 0 and (np.diff(offsets) >= 0).all() and offsets[-1] <= most:
                 return offsets, sums
         raise FileReadError(f"{file.name} is damaged; run the tiles again")
 
     def _read(
-        self, file: BufferedReader, tiles: int, start: int, points: FloatArray, total: int
+        self, file: BufferedReader, start: int, points: FloatArray, total: int
     ) -> IntArray | None:
         """Read points of one tile and return their rows; None if they are not as written."""
-        file.seek(8 * (2 + 2 * tiles) + (self._point + _ROW) * start)
+        file.seek(self._header + self._point * start)
         rows = np.empty(len(points), dtype=np.int32)
         views = points.data.cast("B"), rows.data.cast("B")
         whole = all(file.readinto(view) == len(view) for view in views)

@@ -55,12 +55,16 @@ def status(folder: str | os.PathLike[str]) -> Status:
         raise FileReadError(f"{folder} holds no tiles; begin with: alphamesh tiles run")
     tiling = store.plan()
     finished = store.summary() is not None
-    chunks, spool = manifest["chunks"], store.spool(manifest["dimension"])
+    chunks, chunks_done = manifest["chunks"], 0
+    if finished:
+        chunks_done = chunks
+    elif tiling is not None:
+        chunks_done = sum(map(store.spool(tiling).holds, range(chunks)))
     return Status(
         radius=manifest["radius"],
         points=manifest["points"],
         chunks=chunks,
-        chunks_done=chunks if finished else sum(map(spool.holds, range(chunks))),
+        chunks_done=chunks_done,
         tiles=None if tiling is None else len(tiling),
         tiles_done=0 if tiling is None else sum(map(store.has_tile, range(len(tiling)))),
         finished=finished,

@@ -100,9 +100,9 @@ class Store:
 
     # Points on their way from chunks to tiles
 
-    def spool(self, dimension: int) -> Spool:
+    def spool(self, tiling: Tiling) -> Spool:
         """Return the files of points on their way."""
-        return Spool(self.folder / "chunks", dimension)
+        return Spool(self.folder / "chunks", tiling.dimension, len(tiling))
 
     # Tiles
 
