@@ -81,7 +81,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     kind = _KINDS[options.dimension]
     count, tile_points = int(options.points), int(options.tile_points or kind.tile_points)
     if options.tiny:
-        count, tile_points = 60_000, 20_000
+        count, tile_points = 60_000, min(tile_points, 20_000)
     with tempfile.TemporaryDirectory(dir=options.folder) as name:
         folder = Path(name)
         same = _compare(folder, kind, min(count, _COMPARED))
@@ -143,7 +143,9 @@ def _measure(  # noqa: PLR0913, PLR0917 (what the command line says)
     measure = statistics.median(in_memory)
     size = sum(file.stat().st_size for file in result.folder.rglob("*") if file.is_file())
     speed = count / taken
-    who = f"{processes} processes" if processes else f"{threads or machine.cores()} threads"
+    workers, kind_of = (processes, "process") if processes else (threads, "thread")
+    workers = workers or machine.cores()
+    who = f"{workers} {kind_of}{'' if workers == 1 else 'es' if processes else 's'}"
     about = machine.describe([])
     print(f"machine                        {about['cpu']}, {about['cores']} cores, {who}")
     print(f"load                           {about['load']}")
