@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import os
 import shutil
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterator
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,7 +23,7 @@ from alphamesh.tiles.tiling import Tiling, plan
 from alphamesh.tiles.workers import Workers, go_on, workers_of
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import CountArray, FloatArray
+    from alphamesh._arrays import FloatArray
 
 __all__ = ["run"]
 
@@ -128,7 +129,7 @@ def _begin(
 ) -> None:
     """Make sure that the folder is empty, or holds the beginning of this very run."""
     wanted = {
-        "format": 1,
+        "format": 2,
         "data": data.digest,
         "points": data.count,
         "dimension": data.dimension,
@@ -166,7 +167,8 @@ def _plan(
     sample = np.concatenate(
         [np.empty((0, data.dimension)), *(samples[k] for k in sorted(samples))]
     )
-    store.write_plan(plan(sample, tiles))
+    first_rows = np.array([chunk.first_row for chunk in data.chunks], dtype=np.int64)
+    store.write_plan(plan(sample, tiles), first_rows)
 
 
 def _solve(
@@ -182,25 +184,21 @@ def _solve(
             workers.each(spread, data.chunks), len(data.chunks), told, _SURVEYED, _SPREAD
         ):
             pass
-    first_rows = np.array([chunk.first_row for chunk in data.chunks], dtype=np.int64)
-    work = partial(
-        _solve_tile,
-        folder=store.folder,
-        first_rows=first_rows,
-        row_type=np.int32 if data.count <= np.iinfo(np.int32).max else np.int64,
-        radius=radius,
-    )
+    # All that a task needs to know beyond a few words is in the folder.
+    row_type = np.int32 if data.count <= np.iinfo(np.int32).max else np.int64
+    work = partial(_solve_tile, folder=store.folder, radius=radius, row_type=row_type)
     for _ in _counted(workers.each(work, tiles), len(tiles), told, _SPREAD, _SOLVED):
         pass
     return tiling
 
 
 def _counted(
-    results: Iterable[Any], total: int, told: Progress, start: float, end: float
+    results: Generator[Any, None, None], total: int, told: Progress, start: float, end: float
 ) -> Iterator[Any]:
-    for number, result in enumerate(results, start=1):
-        told(start + (end - start) * number / total)
-        yield result
+    with closing(results):  # at once, should `told` raise
+        for number, result in enumerate(results, start=1):
+            told(start + (end - start) * number / total)
+            yield result
 
 
 # ------------------------------------------------------- tasks, one process each
@@ -226,14 +224,11 @@ def _spread(chunk: Chunk, folder: Path, radius: float) -> None:
         spool.write(chunk.number, *tiling.spread(chunk.read(), radius, go_on))
 
 
-def _solve_tile(
-    tile: int, folder: Path, first_rows: CountArray, row_type: Any, radius: float
-) -> int:
+def _solve_tile(tile: int, folder: Path, radius: float, row_type: Any) -> int:
     """Compute and keep what a tile owns."""
     store = Store(folder)
     tiling = store.plan()
     assert tiling is not None
-    spool = store.spool(tiling)
-    rows, points = spool.points_of(tile, first_rows, row_type)
+    rows, points = store.spool(tiling).points_of(tile, store.first_rows(), row_type)
     store.write_tile(solve(tiling, tile, rows, points, radius, progress=go_on))
     return tile

@@ -27,7 +27,7 @@ from alphamesh.tiles.spool import Spool
 from alphamesh.tiles.tiling import Tiling
 
 if TYPE_CHECKING:
-    pass
+    from alphamesh._arrays import CountArray
 
 __all__ = ["TABLES", "Store"]
 
@@ -81,10 +81,17 @@ class Store:
         dimension, *tree = (arrays[field.name] for field in fields(Tiling))
         return Tiling(int(dimension), *tree)
 
-    def write_plan(self, tiling: Tiling) -> None:
-        """Keep the tiling."""
+    def first_rows(self) -> CountArray:
+        """Return the first row of each chunk of the data, once there is a plan."""
+        arrays = self._arrays(_PLAN)
+        assert arrays is not None
+        first_rows: CountArray = arrays["first_rows"]
+        return first_rows
+
+    def write_plan(self, tiling: Tiling, first_rows: CountArray) -> None:
+        """Keep the tiling, and where chunks begin."""
         arrays = {field.name: getattr(tiling, field.name) for field in fields(Tiling)}
-        self._write_arrays(_PLAN, arrays)
+        self._write_arrays(_PLAN, arrays | {"first_rows": first_rows})
 
     def summary(self) -> Summary | None:
         """Return the facts about the whole; None before it is finished."""

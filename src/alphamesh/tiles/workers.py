@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
 from typing import Any, Protocol, TypeVar
@@ -28,8 +28,8 @@ class Workers(Protocol):
 
     def each(
         self, function: Callable[[Task], Result], tasks: Iterable[Task]
-    ) -> Iterator[Result]:
-        """Yield the results as they come, in any order."""
+    ) -> Generator[Result, None, None]:
+        """Yield the results as they come, in any order; once closed, the rest is dropped."""
 
 
 class _StoppedError(Exception):
@@ -54,7 +54,7 @@ class _Here:
 
     def each(
         self, function: Callable[[Task], Result], tasks: Iterable[Task]
-    ) -> Iterator[Result]:
+    ) -> Generator[Result, None, None]:
         if self.threads == 1:
             yield from map(function, tasks)
             return
@@ -81,7 +81,7 @@ class _Cluster:
 
     def each(
         self, function: Callable[[Task], Result], tasks: Iterable[Task]
-    ) -> Iterator[Result]:
+    ) -> Generator[Result, None, None]:
         from distributed import as_completed
 
         futures = self.client.map(function, list(tasks), pure=False, retries=_RETRIES)
