@@ -10,7 +10,7 @@ takes instead. The runs of record, some 20 GB on disk for the largest::
     python -m benchmarks.tiles --points 1e8 --write-docs docs
     python -m benchmarks.tiles --points 2e7 --dimension 3 --write-docs docs
     python -m benchmarks.tiles --costs --write-docs docs
-    python -m benchmarks.tiles --costs --dimension 3 --write-docs docs
+    python -m benchmarks.tiles --costs --dimension 3 --tile-points 5e5 --write-docs docs
 """
 
 from __future__ import annotations
@@ -247,7 +247,7 @@ def _costs(folder: Path, kind: Kind, tile_points: int) -> str:
     return "\n".join(f"| {name} | {value} |" for name, value in lines)
 
 
-def _timed(work: Callable[[], Result], times: int = 5) -> tuple[float, Result]:
+def _timed(work: Callable[[], Result], times: int = 3) -> tuple[float, Result]:
     """Return the median of the processor's time, which other programs disturb little."""
     taken = []
     for _ in range(times):
