@@ -59,7 +59,7 @@ class Kind:
 
 
 _KINDS = {
-    2: Kind("plane", 2, 2.0, 500_000, 10_000_000),
+    2: Kind("the plane", 2, 2.0, 500_000, 10_000_000),
     3: Kind("space", 3, 1.5, 1_000_000, 2_000_000),
 }
 
@@ -173,7 +173,7 @@ def _measure(  # noqa: PLR0913, PLR0917 (what the command line says)
 
 
 _HEAD = (
-    "cloud in the", "points", "tiles", "workers", "time", "million points a second",
+    "cloud in", "points", "tiles", "workers", "time", "million points a second",
     "the same in memory", "ratio", "peak memory", "result on disk", "date", "load",
 )  # fmt: skip
 
@@ -232,7 +232,7 @@ def _costs(folder: Path, kind: Kind, tile_points: int) -> str:
         return f"{taken / points * 1e6:.2f} s"
 
     lines = [
-        (f"for each million points in the {kind.name}, one core", ""),
+        (f"for each million points in {kind.name}, one core", ""),
         ("---", "--:"),
         ("reading, sorting into tiles", seconds(spreading, count)),
         ("reading a tile", seconds(reading, own)),

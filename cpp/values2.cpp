@@ -13,9 +13,9 @@ double circumradius_scaled(double u, double v, double w, double det, int exponen
 }
 
 // R^2 = u v w / (4 det^2), u, v, w the squared sides. The order of the factors makes b and c
-// alike: as seen from the other side of a plane in space, the value is the same. The differences and so the sides
-// are good to an ulp or two; det has a relative error of at most 4 eps (|l| + |r|) / |det|.
-// At most one angle is not acute, the one with the least scalar product, whose sign is
+// alike: as seen from the other side of a plane in space, the value is the same. The differences
+// and so the sides are good to an ulp or two; det has a relative error of at most 4 eps (|l| + |r|)
+// / |det|. At most one angle is not acute, the one with the least scalar product, whose sign is
 // sure beyond the bound of dot(), which the longest side squared bounds in turn.
 void TriangleBlock::evaluate() {
   for (std::size_t i = 0; i < count; ++i) {

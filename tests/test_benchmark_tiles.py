@@ -33,7 +33,7 @@ def test_figures_are_written_into_the_page(tiles, tmp_path, capsys):
     for options in (["--threads", "2"], ["--threads", "1"], ["--threads", "2"]):
         assert tiles.main(["--tiny", *options, *write]) == 0
     assert capsys.readouterr().out.count("bit for bit: yes") == 3
-    rows = [line for line in page.read_text().splitlines() if line.startswith("| plane")]
+    rows = [line for line in page.read_text().splitlines() if line.startswith("| the plane")]
     assert len(rows) == 2
     assert all("60,000" in row for row in rows)
     assert {row.split("|")[4].strip() for row in rows} == {"1 thread", "2 threads"}

@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from alphamesh.cli.command import Command, json_option, quiet_option, write_section
+from alphamesh.cli.command import (
+    Command,
+    json_option,
+    quiet_option,
+    threads_option,
+    write_section,
+)
 from alphamesh.cli.outputs import Output, Outputs, check_targets, write_bytes
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, number, print_json, print_lines, size_text
@@ -64,14 +70,11 @@ def command() -> None:
     help="About how many points a tile shall have.",
 )  # fmt: skip
 @click.option(
-    "--threads", type=click.IntRange(1), metavar="N",
-    help="Work at N tiles at a time in this process.  [default: one for each CPU]",
-)  # fmt: skip
-@click.option(
     "--workers", type=click.IntRange(1), metavar="N",
     help="Work with N processes of Dask on this machine.",
 )  # fmt: skip
 @click.option("--cluster", metavar="ADDRESS", help="Work on this Dask cluster.")
+@threads_option
 @click.option("--overwrite", is_flag=True, help="Replace another run in the folder.")
 @json_option
 @quiet_option
@@ -82,9 +85,9 @@ def _run(  # noqa: PLR0913, PLR0917 (one option each)
     columns: str | None,
     dimension: int | None,
     tile_points: int,
-    threads: int | None,
     workers: int | None,
     cluster: str | None,
+    threads: int | None,
     overwrite: bool,
     as_json: bool,
     quiet: bool,
