@@ -25,7 +25,7 @@ class Numbering {
   Mesh2 run();
 
  private:
-  static constexpr std::size_t kParts = 64;
+  static constexpr std::size_t kParts = 64, kAhead = 8;
   static constexpr Id kInfinity = Mesh2::kInfinity;
 
   bool is_free(std::size_t t) const { return m_[8 * t] < 0; }
@@ -98,6 +98,10 @@ void Numbering::settle(std::size_t part) {
   const std::size_t end = std::min(n_, (part + 1) << shift_);
   for (std::size_t v = part << shift_; v < end; ++v) {
     bucket.clear();
+    if (v + kAhead < n_) {
+      const Id t = head_[v + kAhead].load(std::memory_order_relaxed);
+      if (t >= 0) prefetch(&m_[8 * static_cast<std::size_t>(t)]);
+    }
     for (Id t = head_[v].load(std::memory_order_relaxed); t >= 0; t = next_[t]) {
       bucket.push_back(member(static_cast<std::size_t>(t)));
     }

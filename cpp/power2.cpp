@@ -79,15 +79,9 @@ bool hidden_between(const Weighted<P>& a, const Weighted<P>& b, const Weighted<P
 }
 
 template <class P>
-int in_own_cell(const Weighted<P>& a, const Weighted<P>& b, const Lattice& lattice) {
-  const auto e = offset(a, b);
-  const double square = dot(e, e), weight = a.w - b.w, s = square + weight;
-  const double sum = square + std::fabs(weight), bound = 8.0 * kEps * sum;
-  if (s > bound) return 1;
-  if (s < -bound) return -1;
-  if (2.0 * sum < lattice.exact2) return sign_of(s);
-  const auto o = big(exact_offset(a, b));
-  return (dot(o, o) + Big(two_diff(a.w, b.w))).sign();
+int in_own_cell_exact(const Weighted<P>& a, const Weighted<P>& b) {
+  const auto e = big(exact_offset(a, b));
+  return (dot(e, e) + Big(two_diff(a.w, b.w))).sign();
 }
 
 #define ALPHAMESH_FOR(P)                                                                         \
@@ -97,7 +91,7 @@ int in_own_cell(const Weighted<P>& a, const Weighted<P>& b, const Lattice& latti
                                              const Weighted<P>&, const Weighted<P>&,             \
                                              const Lattice&);                                    \
   template bool hidden_between<P>(const Weighted<P>&, const Weighted<P>&, const Weighted<P>&);   \
-  template int in_own_cell<P>(const Weighted<P>&, const Weighted<P>&, const Lattice&);
+  template int in_own_cell_exact<P>(const Weighted<P>&, const Weighted<P>&);
 ALPHAMESH_FOR(Point2)
 ALPHAMESH_FOR(SheetPoint)
 #undef ALPHAMESH_FOR

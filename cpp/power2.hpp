@@ -36,15 +36,14 @@ struct WeightedSheet {
 SpatialOrder<WeightedPlane> weighted_type(const SpatialOrder<Plane>&);
 SpatialOrder<WeightedSheet> weighted_type(const SpatialOrder<Sheet>&);
 
-// The same order with each weight beside its point.
+// The same order with each weight beside its point, and without keys.
 template <class S>
-auto weighted(SpatialOrder<S>&& order) {
+auto weighted(SpatialOrder<S> order) {
   decltype(weighted_type(order)) out;
   out.size = order.size;
   out.points = Buffer<Weighted<typename S::Point>>(order.size);
   for (std::size_t i = 0; i < order.size; ++i) out.points[i] = {order.points[i], order.weight[i]};
   out.row = std::move(order.row);
-  out.key = std::move(order.key);
   out.representative = std::move(order.representative);
   out.exponent = order.exponent;
   out.lattice = order.lattice;
@@ -119,6 +118,17 @@ bool hidden_between(const Weighted<P>& a, const Weighted<P>& b, const Weighted<P
 
 // The sign of |a - b|^2 + w_a - w_b: negative if a lies in the power cell of b, not in its own.
 template <class P>
-int in_own_cell(const Weighted<P>& a, const Weighted<P>& b, const Lattice& lattice);
+int in_own_cell_exact(const Weighted<P>& a, const Weighted<P>& b);
+
+template <class P>
+inline int in_own_cell(const Weighted<P>& a, const Weighted<P>& b, const Lattice& lattice) {
+  const auto e = offset(a, b);
+  const double square = dot(e, e), weight = a.w - b.w, s = square + weight;
+  const double sum = square + std::fabs(weight), bound = 8.0 * kEps * sum;
+  if (s > bound) return 1;
+  if (s < -bound) return -1;
+  if (2.0 * sum < lattice.exact2) return sign_of(s);
+  return in_own_cell_exact(a, b);
+}
 
 }  // namespace alphamesh

@@ -20,6 +20,13 @@ Vector3<double> vector(const double (*x)[3][TriangleBlock::kSize], int k, int m,
   return {x[k][0][i] - x[m][0][i], x[k][1][i] - x[m][1][i], x[k][2][i] - x[m][2][i]};
 }
 
+double dot_of_magnitudes(const Vector2<double>& a, const Vector2<double>& b) {
+  return std::fabs(a.x * b.x) + std::fabs(a.y * b.y);
+}
+double dot_of_magnitudes(const Vector3<double>& a, const Vector3<double>& b) {
+  return std::fabs(a.x * b.x) + std::fabs(a.y * b.y) + std::fabs(a.z * b.z);
+}
+
 // The squared cross product, and the same of the magnitudes of its terms.
 struct Cross {
   double square, terms;
@@ -96,18 +103,9 @@ double settle(Dd num, double terms, double resolution, Exact&& exact) {
 }
 
 // The power value of a triangle is (N^2 - 4 n^2 w) / (4 n^2): see PowerTriangles::evaluate().
-// The base is opposite to the longest side, where N has no cancellation of its own.
 template <class P>
 double careful_radius(const Weighted<P>* corner, const Lattice& lattice, int exponent) {
-  int base = 0;
-  double longest = -1.0;
-  for (int k = 0; k < 3; ++k) {
-    const auto side = offset(corner[(k + 1) % 3], corner[(k + 2) % 3]);
-    const double square = dot(side, side);
-    if (square > longest) base = k;
-    longest = larger(longest, square);
-  }
-  const Weighted<P>&a = corner[base], &b = corner[(base + 1) % 3], &c = corner[(base + 2) % 3];
+  const Weighted<P>&a = corner[0], &b = corner[1], &c = corner[2];
   const auto e = exact_offset(b, a), f = exact_offset(c, a);
   const Dd ew = two_diff(a.w, b.w), fw = two_diff(a.w, c.w);
   const Dd e2 = dot(e, e), f2 = dot(f, f);
@@ -173,16 +171,26 @@ void store(const SheetPoint& p, double (*to)[TriangleBlock::kSize], std::size_t 
 
 }  // namespace
 
-// From the lexicographically least vertex on, so that the result does not depend on where
-// the triangle began, to the last bit.
+// From the vertex opposite to the longest side on, where terms cancel least; of equal ones
+// the lexicographically least, so that the result does not depend on where the triangle
+// began, to the last bit.
 template <class P>
 void PowerTriangles<P>::push(const Weighted<P>& a, const Weighted<P>& b, const Weighted<P>& c) {
   const Weighted<P>* p[5] = {&a, &b, &c, &a, &b};
   int first = b < a ? 1 : 0;
   first = c < *p[first] ? 2 : first;
+  double side[3];  // opposite to each vertex
   for (int k = 0; k < 3; ++k) {
-    store(*p[first + k], x_[k], count);
-    w_[k][count] = p[first + k]->w;
+    const auto e = offset(*p[(first + k + 1) % 3], *p[(first + k + 2) % 3]);
+    side[k] = dot(e, e);
+  }
+  int base = side[1] > side[0] ? 1 : 0;
+  base = side[2] > side[base] ? 2 : base;
+  first = (first + base) % 3;
+  const Weighted<P>* const* q = p + first;
+  for (int k = 0; k < 3; ++k) {
+    store(*q[k], x_[k], count);
+    w_[k][count] = q[k]->w;
   }
   first_[count++] = first;
 }
@@ -215,13 +223,13 @@ void PowerTriangles<P>::evaluate(const Lattice& lattice) {
     const double plain = (u2 * v2) * w2;
     const double mixed = u2 * (w2 * (ab - ca)) + at_a * (u2 * ca - w2 * ab);
     const double shift = w2 * (ab * ab) + 2.0 * (at_a * (ab * ca)) + u2 * (ca * ca);
-    const double m = u2 * (w2 * (mab + mca)) + half_a * (u2 * mca + w2 * mab);
+    const double m = u2 * (w2 * (mab + mca)) + dot_of_magnitudes(u, w) * (u2 * mca + w2 * mab);
     const double ms = 2.0 * (w2 * (ab * ab) + u2 * (ca * ca));
     const double quarter = 0.25 / n.square;
     const double radius_sq = ((plain + 2.0 * mixed) + shift) * quarter;
     const double value = radius_sq - aw;
     const double spread = std::sqrt(n.terms / n.square);
-    const double error = 8.0 * spread * radius_sq + 20.0 * ((plain + 2.0 * m) + ms) * quarter +
+    const double error = 6.0 * spread * radius_sq + 19.0 * ((plain + 2.0 * m) + ms) * quarter +
                          4.0 * (radius_sq + std::fabs(aw));
     // No less than the vertices: true in exact arithmetic, so enforced.
     const double least = -(aw < bw ? (aw < cw ? aw : cw) : (bw < cw ? bw : cw));
@@ -292,7 +300,9 @@ void PowerEdges<P>::measure(std::size_t count, const Lattice& lattice) {
     const double power = larger(value, aw_[i] < bw_[i] ? -aw_[i] : -bw_[i]);
     const double root = std::sqrt(std::fabs(power));
     radius[i] = power < 0.0 ? -root : root;
-    bad_[i] = 8.0 * std::fabs(value) >= quarter + std::fabs(mean) + shift ? 0.0 : 1.0;
+    bad_[i] = 6.0 * quarter + 3.0 * std::fabs(mean) + 9.0 * shift <= kShare * std::fabs(value)
+                  ? 0.0
+                  : 1.0;
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (bad_[i] == 0.0) continue;

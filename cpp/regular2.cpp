@@ -1,6 +1,7 @@
 #include "regular2.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -157,25 +158,34 @@ void Insertion<S>::run_round(const Id* begin, const Id* end) {
   job_.advance(0.6 * static_cast<double>(end - begin) / static_cast<double>(n_));
 }
 
-// What the vertices of a part of the triangulation are: kAttached if a neighbour's power
-// circle takes them in.
+// What each row of the input is; attached if a neighbour takes its point into its own cell.
 template <class S>
-void mark_roles(const SpatialOrder<S>& order, const Mesh2& mesh, std::size_t begin, std::size_t end,
-                std::vector<Role>& role) {
+Buffer<Role> roles_of(const SpatialOrder<S>& order, const Mesh2& mesh, std::size_t n, Job& job) {
+  constexpr std::uint8_t kSeen = 1, kTaken = 2;
   const auto* p = order.points.data();
-  for (std::size_t h = 8 * begin; h < 8 * end; ++h) {
-    if ((h & 3) == 3) {
-      h += 4;
-      continue;
+  std::vector<std::atomic<std::uint8_t>> found(order.size);
+  const Parts parts(mesh.triangles, job);
+  job.run(parts.count(), [&](std::size_t part) {
+    for (std::size_t t = parts.begin(part); t < parts.end(part); ++t) {
+      const Id* v = &mesh.slot[8 * t];
+      for (int k = 0; k < 3; ++k) {  // each edge comes from either end, as ghosts take part
+        const Id from = v[k], to = v[(k + 1) % 3];
+        if (from < 0) continue;
+        std::atomic<std::uint8_t>& known = found[from];
+        std::uint8_t bits = known.load(std::memory_order_relaxed);
+        if ((bits & kTaken) != 0) continue;
+        const bool taken = to >= 0 && in_own_cell(p[from], p[to], order.lattice) < 0;
+        const std::uint8_t more = taken ? kSeen | kTaken : kSeen;
+        if ((bits & more) != more) known.fetch_or(more, std::memory_order_relaxed);
+      }
     }
-    const Id from = mesh.slot[h], to = mesh.origin(mesh.twin(static_cast<Id>(h)));
-    if (from < 0) continue;
-    Role& r = role[order.row[from]];
-    if (r == Role::kNone) r = Role::kGabriel;
-    if (to >= 0 && r == Role::kGabriel && in_own_cell(p[from], p[to], order.lattice) < 0) {
-      r = Role::kAttached;
-    }
-  }
+  });
+  if (order.size == 1) found[0].store(kSeen);
+  constexpr Role kRole[4] = {Role::kNone, Role::kGabriel, Role::kAttached, Role::kAttached};
+  Buffer<Role> role(n);
+  std::fill(role.begin(), role.end(), Role::kNone);
+  for (std::size_t i = 0; i < order.size; ++i) role[order.row[i]] = kRole[found[i].load()];
+  return role;
 }
 
 }  // namespace
@@ -204,9 +214,7 @@ RegularFiltration2 regular_filtration2(SpatialOrder<S>&& plain, const WeightedRo
   Mesh2 mesh = regular2(order, job);
   out.simplices = filtration2(order, mesh, job);
   const Filtration2& f = out.simplices;
-  std::vector<Role> role(rows.n, Role::kNone);
-  if (order.size == 1) role[order.row[0]] = Role::kGabriel;
-  mark_roles(order, mesh, 0, mesh.triangles, role);
+  const Buffer<Role> role = roles_of(order, mesh, rows.n, job);
   const EdgeView edges{f.edges.data(), f.edge_radii.data(), f.edge_radii.size()};
   VertexRows v = vertex_rows(role.data(), rows.weight, rows.representative, rows.n, edges, job);
   out.vertices = std::move(v.vertices);
