@@ -91,18 +91,23 @@ void Insertion<Cloud>::insert_all(const Id* begin, const Id* end) {
 template <class Cloud>
 void Insertion<Cloud>::run_parallel(const Id* begin, const Id* end, std::vector<Id>& later) {
   const auto count = static_cast<std::size_t>(job_.threads());
+  auto bound = [&](std::size_t k) {
+    return static_cast<Id>(static_cast<std::size_t>(n_) * k / count);
+  };
+  std::vector<char> ready(count);
+  job_.run(count, [&](std::size_t k) {  // looks at all tetrahedra, so while nothing changes
+    workers_[k]->take_range(bound(k), bound(k + 1));
+    ready[k] = workers_[k]->has_start();
+  });
   std::vector<std::vector<Id>> left(count);
   job_.run(count, [&](std::size_t k) {
     Worker<Cloud>& worker = *workers_[k];
-    const auto lo = static_cast<Id>(static_cast<std::size_t>(n_) * k / count);
-    const auto hi = static_cast<Id>(static_cast<std::size_t>(n_) * (k + 1) / count);
-    worker.take_range(lo, hi);
-    const Id *from = std::lower_bound(begin, end, lo), *to = std::lower_bound(begin, end, hi);
-    const bool ready = worker.has_start();
+    const Id* from = std::lower_bound(begin, end, bound(k));
+    const Id* to = std::lower_bound(begin, end, bound(k + 1));
     for (const Id* i = from; i < to; ++i) {
       if (((i - from) & 0x3ff) == 0) job_.poll();
       if (skip(*i)) continue;
-      if (!ready || worker.out_of_room() || !worker.insert(*i)) left[k].push_back(*i);
+      if (!ready[k] || worker.out_of_room() || !worker.insert(*i)) left[k].push_back(*i);
     }
   });
   for (const auto& l : left) later.insert(later.end(), l.begin(), l.end());

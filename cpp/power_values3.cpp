@@ -17,6 +17,10 @@ constexpr double kEnough = 8192.0;
 
 double square(const Vector& v) { return dot(v, v); }
 
+double distance_sq(const Vector& a, const Vector& b) {
+  return square({a.x - b.x, a.y - b.y, a.z - b.z});
+}
+
 double larger(double a, double b) { return a > b ? a : b; }  // as one instruction
 double smaller(double a, double b) { return a < b ? a : b; }
 
@@ -91,11 +95,10 @@ void PowerTetrahedra::evaluate(const Lattice3& lattice) {
 void PowerTetrahedra::evaluate_edges(const Lattice3& lattice) {
   const double exact4 = lattice.exact2 * lattice.unit * lattice.unit;
   for (std::size_t i = 0; i < count; ++i) {
-    auto side = [&](int k, int m) {
-      return square(Vector{x_[m][i] - x_[k][i], y_[m][i] - y_[k][i], z_[m][i] - z_[k][i]});
-    };
-    const double a2 = side(0, 1), b2 = side(0, 2), c2 = side(0, 3);
-    const double d2 = side(1, 2), e2 = side(1, 3), f2 = side(2, 3);
+    const Vector p{x_[0][i], y_[0][i], z_[0][i]}, q{x_[1][i], y_[1][i], z_[1][i]};
+    const Vector r{x_[2][i], y_[2][i], z_[2][i]}, t{x_[3][i], y_[3][i], z_[3][i]};
+    const double a2 = distance_sq(p, q), b2 = distance_sq(p, r), c2 = distance_sq(p, t);
+    const double d2 = distance_sq(q, r), e2 = distance_sq(q, t), f2 = distance_sq(r, t);
     const double wa = w_[1][i] - w_[0][i], wb = w_[2][i] - w_[0][i], wc = w_[3][i] - w_[0][i];
     const double longest = larger(larger(larger(a2, b2), larger(c2, d2)), larger(e2, f2));
     const double weight = larger(std::fabs(wa), larger(std::fabs(wb), std::fabs(wc)));
@@ -107,7 +110,9 @@ void PowerTetrahedra::evaluate_edges(const Lattice3& lattice) {
     const Facet g3 = facet(3, 0, 1, 2, d2, b2, a2, 0.0, wa, wb, bound);
     sides_[i] = (f0.code + f1.code) + (g2.code + g3.code);
     const double least = smaller(smaller(f0.least, f1.least), smaller(g2.least, g3.least));
-    bad_edge_[i] = least > bound ? 0.0 : (bound > 0.0 ? 1.0 : 0.0);
+    double good = least > bound ? 1.0 : 0.0;
+    good = bound > 0.0 ? good : 1.0;
+    bad_edge_[i] = 1.0 - good;
   }
 }
 

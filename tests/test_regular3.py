@@ -78,6 +78,23 @@ def test_simplices_and_values_are_those_of_gudhi(cloud):
             assert not values[0] ^ values[1]
 
 
+@pytest.mark.parametrize("kind", ["light", "middling", "heavy", "negative", "sphere"])
+def test_simplices_and_values_are_those_of_diode(kind):
+    diode = pytest.importorskip("diode")
+    points, weights = CLOUDS[kind](np.random.default_rng(8))
+    balls = np.column_stack([points, weights])
+    levels = zip(*diode.fill_weighted_alpha_shapes_arrays(balls, True), strict=True)
+    theirs = {
+        tuple(sorted(row)): value
+        for rows, values in levels
+        for row, value in zip(rows.tolist(), values.tolist(), strict=True)
+    }
+    mine = powers_of(regular3(points, weights))
+    assert mine.keys() == theirs.keys()
+    for s, power in mine.items():
+        assert power == pytest.approx(theirs[s], rel=1e-9, abs=1e-15)
+
+
 def test_zero_weights_are_no_weights(cloud):
     points, _ = cloud
     weighted, plain = regular3(points, np.zeros(len(points))), alpha3(points)
