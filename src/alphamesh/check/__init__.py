@@ -16,10 +16,12 @@ from alphamesh.check._filtration import RADIUS_ERROR, check_filtration
 from alphamesh.check._shape import check_shape
 from alphamesh.check._space_filtration import RADIUS_ERROR_IN_SPACE
 from alphamesh.check._surface import check_surface
+from alphamesh.check._weighted import RADIUS_ERROR_WITH_WEIGHTS
 
 __all__ = [
     "RADIUS_ERROR",
     "RADIUS_ERROR_IN_SPACE",
+    "RADIUS_ERROR_WITH_WEIGHTS",
     "check_delaunay",
     "check_filtration",
     "check_shape",

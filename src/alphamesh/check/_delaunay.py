@@ -9,6 +9,7 @@ import numpy as np
 from alphamesh.check._mesh import check_edges, check_representative, proved_mesh
 from alphamesh.check._space_filtration import check_delaunay3d
 from alphamesh.check._tools import check_table, require
+from alphamesh.check._weighted import check_rows, standing_rows
 from alphamesh.delaunay3d import Delaunay3D
 from alphamesh.errors import InvalidResultError
 
@@ -32,8 +33,13 @@ def check_delaunay(result: Delaunay | Delaunay3D) -> None:
     if isinstance(result, Delaunay3D):
         check_delaunay3d(result)
         return
-    check_representative(result.points, result.representative)
-    mesh = proved_mesh(result.points, result.representative, result.triangles)
+    standing = result.representative
+    if result.weights is None:
+        check_representative(result.points, standing)
+    else:
+        check_rows(result)
+        standing = standing_rows(standing, result.hidden)
+    mesh = proved_mesh(result.points, standing, result.triangles, result.weights)
     check_table(result.neighbors, (len(mesh.triangles), 3), "neighbors")
     require(
         (result.neighbors == mesh.neighbors).all(axis=1),

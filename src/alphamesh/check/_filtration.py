@@ -11,6 +11,7 @@ from alphamesh._kernels import dot2
 from alphamesh.check._mesh import Mesh, check_edges, check_representative, proved_mesh
 from alphamesh.check._space_filtration import check_filtration3d
 from alphamesh.check._tools import LongArray, check_radii, check_table, require, signs
+from alphamesh.check._weighted import check_power_values, check_rows, standing_rows
 from alphamesh.errors import InvalidResultError
 from alphamesh.filtration3d import Filtration3D
 
@@ -33,7 +34,8 @@ def check_filtration(result: AnyFiltration) -> None:
     Combinatorial claims (the triangulation, which edges are Gabriel, which values are
     equal) are checked exactly; a radius itself may be off by a factor of
     1 ± :data:`RADIUS_ERROR`, in space 1 ± :data:`RADIUS_ERROR_IN_SPACE`, and for thin
-    simplices by the rounding of the check: 2e-13 in the plane, 1e-11 in space.
+    simplices by the rounding of the check: 2e-13 in the plane, 1e-11 in space. With
+    weights, 1 ± :data:`RADIUS_ERROR_WITH_WEIGHTS`, and hidden points are proved hidden.
 
     Parameters
     ----------
@@ -48,16 +50,25 @@ def check_filtration(result: AnyFiltration) -> None:
     if isinstance(result, Filtration3D):
         check_filtration3d(result)
         return
-    check_representative(result.points, result.representative)
     if not len(result.simplices) == len(result.radii) == 3:
         raise InvalidResultError("simplices and radii: not one array for each dimension")
     vertices, edges, triangles = result.simplices
-    mesh = proved_mesh(result.points, result.representative, triangles)
+    weighted = result.weights is not None
+    standing = result.representative
+    if weighted:
+        check_rows(result)
+        standing = standing_rows(standing, result.hidden)
+    else:
+        check_representative(result.points, standing)
+    mesh = proved_mesh(result.points, standing, triangles, result.weights)
     _check_vertices(vertices, mesh)
     order = check_edges(edges, mesh)
     _check_cofaces(result.edge_triangles, mesh, order)
     for name, simplices, radii in zip(_NAMES, result.simplices, result.radii, strict=True):
-        check_radii(radii, len(simplices), name)
+        check_radii(radii, len(simplices), name, signed=weighted)
+    if weighted:
+        check_power_values(result)
+        return
     require(result.radii[0] == 0, "vertex radii: not zero")
     _check_triangle_radii(mesh, result.radii[2])
     _check_edge_radii(mesh, edges, result.edge_triangles, *result.radii[1:])

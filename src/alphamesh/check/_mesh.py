@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._kernels import dot2, incircle2, orient2
+from alphamesh.check._powers import lifted_sides
 from alphamesh.check._tools import LongArray, check_table, edge_keys, require, signs
 from alphamesh.errors import InvalidResultError, rows_text
 
@@ -52,16 +53,27 @@ def unit_points(points: FloatArray) -> tuple[FloatArray, int]:
     return np.ldexp(points, -exponent), exponent
 
 
-def proved_mesh(points: FloatArray, representative: IntArray, triangles: IntArray) -> Mesh:
-    """Return the mesh of `triangles` if it is the canonical Delaunay triangulation."""
+def proved_mesh(
+    points: FloatArray,
+    representative: IntArray,
+    triangles: IntArray,
+    weights: FloatArray | None = None,
+) -> Mesh:
+    """Return the mesh of `triangles` if it is the canonical Delaunay triangulation.
+
+    With weights, the canonical regular triangulation of the rows that represent themselves.
+    """
     vertices = np.flatnonzero(representative == np.arange(len(points)))
     points, exponent = unit_points(points)
     check_table(triangles, (len(triangles), 3), "triangles")
     check_simplices(triangles, representative, "triangles")
     ends = triangles[:, [1, 2, 0, 2, 0, 1]].reshape(-1, 2).astype(np.int64)
     mesh = Mesh(points, exponent, vertices, triangles, ends, partners(ends))
+    masses = None if weights is None else np.ldexp(weights, -2 * exponent)
     if len(triangles) == 0:
         _check_line(points, vertices)
+        if masses is not None:
+            check_regular_path(points, masses, vertices)
         return mesh
     used = np.zeros(len(points), dtype=bool)
     used[triangles] = True
@@ -75,7 +87,7 @@ def proved_mesh(points: FloatArray, representative: IntArray, triangles: IntArra
             f"not a disc: {len(vertices)} points - {edges} edges + {len(triangles)} triangles "
             "must be 1 (Euler)"
         )
-    _check_inner_edges(mesh, turns)
+    _check_inner_edges(mesh, turns, masses)
     return mesh
 
 
@@ -137,7 +149,7 @@ def _precedes(a: FloatArray, b: FloatArray) -> BoolArray:
     return first
 
 
-def _check_inner_edges(mesh: Mesh, turns: KindArray) -> None:
+def _check_inner_edges(mesh: Mesh, turns: KindArray, masses: FloatArray | None) -> None:
     """Check that triangles lie on both sides of each inner edge and are locally Delaunay."""
     half = np.flatnonzero(mesh.partner > np.arange(len(mesh.partner)))
     other = mesh.partner[half]
@@ -150,8 +162,13 @@ def _check_inner_edges(mesh: Mesh, turns: KindArray) -> None:
     clockwise = side < 0
     corners[clockwise] = corners[clockwise][:, [1, 0, 2]]
     quads = np.column_stack((corners, beyond))
-    outside = signs(_in_circle, mesh.points, quads) < 0
-    require(outside, "triangles: a point inside their circumcircle (ties included)", half // 3)
+    if masses is None:
+        outside = signs(_in_circle, mesh.points, quads) < 0
+        problem = "triangles: a point inside their circumcircle (ties included)"
+    else:
+        outside = lifted_sides((mesh.points, masses), quads, (0, 1)) < 0
+        problem = "triangles: a point inside their power circle (ties included)"
+    require(outside, problem, half // 3)
 
 
 def _in_circle(corners: FloatArray) -> KindArray:
@@ -168,6 +185,17 @@ def _check_line(points: FloatArray, vertices: LongArray) -> None:
     triples[:, 2] = vertices
     on_line = signs(orient2, points, triples) == 0
     require(on_line, "points: not on one line, yet there is no triangle", vertices)
+
+
+def check_regular_path(points: FloatArray, masses: FloatArray, vertices: Any) -> None:
+    """Check that each of several points on a line has a part of their power diagram."""
+    order = vertices[np.lexsort(points[vertices].T[::-1])]
+    if len(order) < 3:
+        return
+    widest = int(np.argmax(np.ptp(points[vertices], axis=0)))
+    triples = np.column_stack((order[:-2], order[2:], order[1:-1]))
+    inside = lifted_sides((points, masses), triples, (widest,)) > 0
+    require(inside, "vertices: one without a part of the power diagram", order[1:-1])
 
 
 def collinear_path(points: FloatArray, vertices: Any) -> LongArray:

@@ -103,12 +103,13 @@ def _check_boundary(shape: AlphaShape) -> None:
 def _check_vertices(shape: AlphaShape) -> None:
     """Check which vertices are isolated, singular, regular and interior."""
     vertices = shape.filtration.simplices[0][:, 0]
+    there = shape.filtration.radii[0] <= shape.radius
     on_edge = _marked(shape, shape.edges)[vertices]
     in_triangle = _marked(shape, shape.triangles)[vertices]
     on_boundary = _marked(shape, shape.boundary_edges)[vertices]
     kinds = {
-        "isolated": (shape.isolated_vertices, ~on_edge),
-        "singular": (shape.singular_vertices, ~in_triangle),
+        "isolated": (shape.isolated_vertices, there & ~on_edge),
+        "singular": (shape.singular_vertices, there & ~in_triangle),
         "regular": (shape.regular_vertices, on_boundary),
         "interior": (shape.interior_vertices, in_triangle & ~on_boundary),
     }
@@ -118,7 +119,7 @@ def _check_vertices(shape: AlphaShape) -> None:
 
 def _check_counts(shape: AlphaShape, uses: LongArray) -> None:
     expected = {
-        "vertices": len(shape.filtration.simplices[0]),
+        "vertices": int(np.count_nonzero(shape.filtration.radii[0] <= shape.radius)),
         "edges": len(shape.edges),
         "triangles": len(shape.triangles),
         "singular_edges": int(np.count_nonzero(uses == 0)),

@@ -10,6 +10,7 @@ import numpy as np
 from alphamesh.check._mesh import unit_points
 from alphamesh.check._space_mesh import check_complex, faces, require_same_rows
 from alphamesh.check._tools import LongArray, check_radii, check_table, require
+from alphamesh.check._weighted import check_power_values, check_rows, standing_rows
 from alphamesh.errors import InvalidResultError
 
 if TYPE_CHECKING:
@@ -29,14 +30,18 @@ _CHUNK = 1 << 16
 
 def check_delaunay3d(result: Delaunay3D) -> None:
     """Prove a triangulation in space; see :func:`alphamesh.check.check_delaunay`."""
-    vertices = np.flatnonzero(result.representative == np.arange(len(result.points)))
+    standing = result.representative
+    if result.weights is not None:
+        check_rows(result)
+        standing = standing_rows(standing, result.hidden)
+    vertices = np.flatnonzero(standing == np.arange(len(result.points)))
     simplices = (
         vertices.astype(np.int32).reshape(-1, 1),
         result.edges,
         result.triangles,
         result.tetrahedra,
     )
-    partner = check_complex(result.points, result.representative, simplices)
+    partner = check_complex(result.points, standing, simplices, result.weights)
     check_table(result.neighbors, (len(result.tetrahedra), 4), "neighbors")
     expected = np.where(partner < 0, -1, partner // 4).reshape(-1, 4)
     same = (result.neighbors == expected).all(axis=1)
@@ -47,10 +52,18 @@ def check_filtration3d(result: Filtration3D) -> None:
     """Prove a filtration in space; see :func:`alphamesh.check.check_filtration`."""
     if not len(result.simplices) == len(result.radii) == 4:
         raise InvalidResultError("simplices and radii: not one array for each dimension")
-    partner = check_complex(result.points, result.representative, result.simplices)
+    signed = result.weights is not None
+    standing = result.representative
+    if signed:
+        check_rows(result)
+        standing = standing_rows(standing, result.hidden)
+    partner = check_complex(result.points, standing, result.simplices, result.weights)
     _check_cofaces(result, partner)
     for name, rows, radii in zip(_NAMES, result.simplices, result.radii, strict=True):
-        check_radii(radii, len(rows), f"{name} radii")
+        check_radii(radii, len(rows), f"{name} radii", signed=signed)
+    if signed:
+        check_power_values(result)
+        return
     require(result.radii[0] == 0, "vertex radii: not zero")
     points, exponent = unit_points(result.points)
     lattice = _lattice(points)

@@ -12,12 +12,14 @@ from alphamesh._kernels.space import insphere3, orient3
 from alphamesh.check._mesh import (
     Mesh,
     check_hull,
+    check_regular_path,
     check_representative,
     check_simplices,
     collinear_path,
     partners,
     unit_points,
 )
+from alphamesh.check._powers import lifted_sides
 from alphamesh.check._tools import LongArray, check_table, require, signs
 from alphamesh.errors import InvalidResultError
 
@@ -31,11 +33,15 @@ _PLANES = ((0, 1), (1, 2), (2, 0))
 
 
 def check_complex(
-    points: FloatArray, representative: IntArray, simplices: tuple[IntArray, ...]
+    points: FloatArray,
+    representative: IntArray,
+    simplices: tuple[IntArray, ...],
+    weights: FloatArray | None = None,
 ) -> LongArray:
     """Check that simplices are those of the canonical Delaunay triangulation.
 
-    In a plane, ties may be broken either way.
+    With weights, of the canonical regular one of the rows that represent themselves. In a
+    plane, ties between points without weights may be broken either way.
 
     Returns
     -------
@@ -43,7 +49,8 @@ def check_complex(
         The other one of each facet 4t + k, which lies opposite to vertex k of
         tetrahedron t; -1 on the hull.
     """
-    check_representative(points, representative, 3)
+    if weights is None:
+        check_representative(points, representative, 3)
     vertices = np.flatnonzero(representative == np.arange(len(points)))
     for k, rows in enumerate(simplices):
         check_table(rows, (len(rows), k + 1), _NAMES[k])
@@ -53,18 +60,21 @@ def check_complex(
     for k in (1, 2):
         if len(simplices[k + 1]):
             require_same_rows(simplices[k], faces(simplices[k + 1]), f"{_NAMES[k]}: not those")
-    unit, _ = unit_points(points)
+    unit, exponent = unit_points(points)
+    masses = None if weights is None else np.ldexp(weights, -2 * exponent)
     dimension = max((k for k in range(4) if len(simplices[k])), default=-1)
     if dimension >= 1:
         used = np.zeros(len(points), dtype=bool)
         used[simplices[dimension]] = True
         require(used[vertices], f"points: in none of the {_NAMES[dimension]}", vertices)
     if dimension == 3:
-        return _check_solid(unit, simplices)
+        return _check_solid(unit, simplices, masses)
     if dimension == 2:
-        _check_sheet(unit, vertices, simplices[2])
+        _check_sheet(unit, vertices, simplices[2], masses)
     else:
         _check_path(unit, vertices, simplices[1])
+        if masses is not None:
+            check_regular_path(unit, masses, vertices)
     return np.empty(0, dtype=np.int64)
 
 
@@ -97,7 +107,9 @@ def require_same_rows(rows: IntArray, expected: IntArray, problem: str) -> LongA
 # ---------------------------------------------------------------------- in space
 
 
-def _check_solid(points: FloatArray, simplices: tuple[IntArray, ...]) -> LongArray:
+def _check_solid(
+    points: FloatArray, simplices: tuple[IntArray, ...], masses: FloatArray | None
+) -> LongArray:
     tetrahedra = simplices[3]
     turns = signs(orient3, points, tetrahedra)
     require(turns != 0, "tetrahedra: flat")
@@ -109,7 +121,7 @@ def _check_solid(points: FloatArray, simplices: tuple[IntArray, ...]) -> LongArr
             f"not a ball: {counts[0]} points - {counts[1]} edges + {counts[2]} triangles - "
             f"{counts[3]} tetrahedra must be 1 (Euler)"
         )
-    _check_inner_facets(points, tetrahedra, turns, facets, partner)
+    _check_inner_facets((points, masses), tetrahedra, turns, facets, partner)
     # Opposite to vertex k, an ascending row runs outwards if k is even and it is positive.
     hull = np.flatnonzero(partner < 0)
     outward = facets[hull].copy()
@@ -135,19 +147,25 @@ def _partners_of_rows(rows: IntArray) -> LongArray:
 
 
 def _check_inner_facets(
-    points: FloatArray,
+    balls: tuple[FloatArray, FloatArray | None],
     tetrahedra: IntArray,
     turns: KindArray,
     facets: IntArray,
     partner: LongArray,
 ) -> None:
-    """Check that tetrahedra lie on both sides of a facet and are locally Delaunay."""
+    """Check that tetrahedra lie on both sides of a facet and are locally Delaunay, or regular."""
+    points, masses = balls
     facet = np.flatnonzero(partner > np.arange(len(partner)))
     apex, beyond = tetrahedra.ravel()[facet], tetrahedra.ravel()[partner[facet]]
     side = signs(orient3, points, np.column_stack((facets[facet], apex)))
     across = signs(orient3, points, np.column_stack((facets[facet], beyond)))
     require(side != across, "tetrahedra: folded over their neighbour", facet // 4)
     five = np.column_stack((tetrahedra[facet // 4], beyond))
+    if masses is not None:
+        outside = lifted_sides((points, masses), five, (0, 1, 2)) < 0
+        problem = "tetrahedra: a point inside their power sphere (ties included)"
+        require(outside, problem, facet // 4)
+        return
     negative = turns[facet // 4] < 0
     five[negative, :2] = five[negative, 1::-1]
     outside = signs(_in_sphere, points, five) < 0
@@ -201,7 +219,12 @@ def _on_both_sides(points: FloatArray, quads: Any) -> BoolArray:
 # ------------------------------------------------------------- in a plane, on a line
 
 
-def _check_sheet(points: FloatArray, vertices: LongArray, triangles: IntArray) -> None:
+def _check_sheet(
+    points: FloatArray,
+    vertices: LongArray,
+    triangles: IntArray,
+    masses: FloatArray | None,
+) -> None:
     """Check triangles of points in one plane: in a projection, but for the circles."""
     four = np.empty((len(vertices), 4), dtype=np.int64)
     four[:, :3], four[:, 3] = triangles[0], vertices
@@ -226,6 +249,10 @@ def _check_sheet(points: FloatArray, vertices: LongArray, triangles: IntArray) -
     quads = np.column_stack((ends[half], apex, beyond))
     problem = "triangles: folded over their neighbour"
     require(_on_both_sides(points, quads), problem, half // 3)
+    if masses is not None:
+        outside = lifted_sides((points, masses), quads[:, [0, 1, 2, 3]], plane) < 0
+        require(outside, "triangles: a point inside their power circle", half // 3)
+        return
     # The sphere through a triangle and any point off the plane cuts it in the circle.
     five = points[quads][:, [0, 1, 2, 2, 3]]
     five[:, 3, 3 - sum(plane)] += 1.0

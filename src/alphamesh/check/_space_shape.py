@@ -136,11 +136,11 @@ def _check_isolated(shape: AlphaShape3D) -> None:
 
 
 def _check_counts(shape: AlphaShape3D) -> None:
+    vertices = int(np.count_nonzero(shape.filtration.radii[0] <= shape.radius))
     wrong = [
         name
         for name, count in shape.counts.items()
-        if count
-        != len(shape.filtration.simplices[0] if name == "vertices" else getattr(shape, name))
+        if count != (vertices if name == "vertices" else len(getattr(shape, name)))
     ]
     if wrong:
         raise InvalidResultError(f"counts: not the lengths of {', '.join(wrong)}")

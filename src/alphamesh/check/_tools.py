@@ -34,14 +34,17 @@ def check_table(array: Any, shape: tuple[int, ...], name: str) -> None:
         raise InvalidResultError(f"{name}: not an int32 array of shape {shape}")
 
 
-def check_radii(radii: Any, count: int, name: str) -> None:
-    """Raise unless `radii` is a float64 array of finite numbers of at least 0."""
+def check_radii(radii: Any, count: int, name: str, *, signed: bool = False) -> None:
+    """Raise unless `radii` is a float64 array of finite numbers, of at least 0 if not `signed`."""
     good = (
         isinstance(radii, np.ndarray) and radii.shape == (count,) and radii.dtype == np.float64
     )
     if not good:
         raise InvalidResultError(f"{name}: not a float64 array of shape ({count},)")
-    require(np.isfinite(radii) & (radii >= 0), f"{name}: not finite or negative")
+    if signed:
+        require(np.isfinite(radii), f"{name}: not finite")
+    else:
+        require(np.isfinite(radii) & (radii >= 0), f"{name}: not finite or negative")
 
 
 def signs(
