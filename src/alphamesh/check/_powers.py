@@ -69,10 +69,9 @@ def orthocentres(balls: Balls, simplices: IntArray) -> Orthocentres:
         value = (offset**2).sum(axis=1) - first
         # Relative errors grow with the condition of the matrix.
         sizes = (squares + np.abs(drops)).max(axis=1)
-        condition = np.abs(gram).sum(axis=2).max(axis=1) * np.abs(inverse).sum(axis=2).max(
-            axis=1
-        )
-        spread = np.abs(inverse).sum(axis=2).max(axis=1) * sizes * np.sqrt(squares.max(axis=1))
+        norm = np.abs(inverse).sum(axis=2).max(axis=1)
+        condition = np.abs(gram).sum(axis=2).max(axis=1) * norm
+        spread = norm * sizes * np.sqrt(squares.max(axis=1))
         error = 256 * _ULP * condition * spread
         error[singular | ~np.isfinite(error)] = np.inf
         length = np.sqrt((offset**2).sum(axis=1))
@@ -86,7 +85,7 @@ def _inverse(gram: FloatArray) -> tuple[FloatArray, Any]:
     singular = ~(np.linalg.det(gram) > 0)
     safe = gram.copy()
     safe[singular] = np.eye(gram.shape[1])
-    return np.linalg.inv(safe), singular
+    return np.asarray(np.linalg.inv(safe), dtype=np.float64), singular
 
 
 def powers(
@@ -114,12 +113,10 @@ def powers(
     with np.errstate(all="ignore"):
         power = square - 2 * along + drop
         length = np.sqrt(square)
-        error = 2 * length * centres.error[rows] + 64 * _ULP * (
-            square
-            + np.abs(drop)
-            + 2 * length * np.sqrt((centres.offset[rows] ** 2).sum(axis=1))
-        )
-        signs = np.sign(power).astype(np.int8)
+        reach = np.sqrt((centres.offset[rows] ** 2).sum(axis=1))
+        error = 64 * _ULP * (square + np.abs(drop) + 2 * length * reach)
+        error += 2 * length * centres.error[rows]
+        signs: KindArray = np.sign(power).astype(np.int8)
         unsure = ~(np.abs(power) > error)
     for q in np.flatnonzero(unsure):
         signs[q] = _exact_power(balls, simplices[rows[q]], int(others[q]))

@@ -153,7 +153,7 @@ def _check_inner_facets(
     facets: IntArray,
     partner: LongArray,
 ) -> None:
-    """Check that tetrahedra lie on both sides of a facet and are locally Delaunay, or regular."""
+    """Check that tetrahedra lie on both sides of a facet and are locally regular."""
     points, masses = balls
     facet = np.flatnonzero(partner > np.arange(len(partner)))
     apex, beyond = tetrahedra.ravel()[facet], tetrahedra.ravel()[partner[facet]]

@@ -35,7 +35,7 @@ def check_table(array: Any, shape: tuple[int, ...], name: str) -> None:
 
 
 def check_radii(radii: Any, count: int, name: str, *, signed: bool = False) -> None:
-    """Raise unless `radii` is a float64 array of finite numbers, of at least 0 if not `signed`."""
+    """Raise unless `radii` is a float64 array of finite numbers, at least 0 if not `signed`."""
     good = (
         isinstance(radii, np.ndarray) and radii.shape == (count,) and radii.dtype == np.float64
     )

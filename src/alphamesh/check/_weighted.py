@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["RADIUS_ERROR_WITH_WEIGHTS", "check_power_values", "check_rows", "standing_rows"]
 
 #: Relative error up to which `check_filtration` accepts a radius of a weighted complex.
-RADIUS_ERROR_WITH_WEIGHTS = 2e-13
+RADIUS_ERROR_WITH_WEIGHTS = 5e-13
 
 _NAMES = ("vertex", "edge", "triangle", "tetrahedron")
 
@@ -117,9 +117,10 @@ def _neighbors(triangles: IntArray) -> IntArray:
 
 
 def check_power_values(result: AnyFiltration) -> None:
-    """Check hidden rows and all values: of the own orthosphere if Gabriel, else the least above.
+    """Check hidden rows and all values.
 
-    Of the vertices of cofaces alone, one lies inside the orthosphere if any does.
+    They are those of the own orthosphere if Gabriel, else the least above. Of the vertices
+    of cofaces alone, one lies inside the orthosphere if any does.
     """
     assert result.weights is not None
     points, exponent = unit_points(result.points)
