@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "edge_lengths",
+    "kernel_balls",
     "kernel_points",
     "scaled_points",
     "tetrahedron_volumes",
@@ -65,6 +66,28 @@ def kernel_points(points: FloatArray) -> tuple[FloatArray, int]:
     if exponent < 0:
         exponent = max(exponent, int(np.frexp(least)[1]) + 187)
     return np.ldexp(points, -exponent), exponent
+
+
+def kernel_balls(
+    points: FloatArray, weights: FloatArray | None
+) -> tuple[FloatArray, FloatArray | None, int]:
+    """Return points and weights as `kernel_points` does, and the exponent of the power of two.
+
+    With weights, kernels suppose coordinates, and roots of weights, below 2**165 whose last
+    digits are above 2**-160: they take products of more factors.
+    """
+    if weights is None:
+        scaled, exponent = kernel_points(points)
+        return scaled, None, exponent
+    sizes = np.concatenate((np.abs(points).ravel(), np.sqrt(np.abs(weights))))
+    largest = float(sizes.max(initial=0.0))
+    least = float(sizes.min(initial=np.inf, where=sizes > 0))
+    if largest < 2.0**164 and least >= 2.0**-106:
+        return points, weights, 0
+    exponent = int(np.frexp(largest)[1]) - 164
+    if exponent < 0:
+        exponent = max(exponent, int(np.frexp(least)[1]) + 105)
+    return np.ldexp(points, -exponent), np.ldexp(weights, -2 * exponent), exponent
 
 
 def edge_lengths(points: FloatArray, edges: IntArray) -> FloatArray:
