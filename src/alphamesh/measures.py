@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
+
+from alphamesh._arrays import read_only
+from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
     from alphamesh._arrays import ComplexArray, FloatArray, IntArray
@@ -14,7 +18,9 @@ __all__ = [
     "edge_lengths",
     "kernel_balls",
     "kernel_points",
+    "rescaled",
     "scaled_points",
+    "scaled_radius",
     "tetrahedron_volumes",
     "total_length",
     "triangle_areas",
@@ -88,6 +94,25 @@ def kernel_balls(
     if exponent < 0:
         exponent = max(exponent, int(np.frexp(least)[1]) + 105)
     return np.ldexp(points, -exponent), np.ldexp(weights, -2 * exponent), exponent
+
+
+def rescaled(array: FloatArray, exponent: int) -> FloatArray:
+    """Return `array` times a power of two; what leaves the range becomes 0 or infinite."""
+    if exponent == 0:
+        return array
+    with np.errstate(over="ignore", under="ignore"):
+        return read_only(np.ldexp(array, exponent))
+
+
+def scaled_radius(radius: float, exponent: int) -> float:
+    """Return the radius over a power of two."""
+    try:
+        return math.ldexp(radius, -exponent)
+    except OverflowError:
+        raise ParameterError(
+            f"a radius of {radius:.6g} is too large beside coordinates as small as these; "
+            "scale the points up"
+        ) from None
 
 
 def edge_lengths(points: FloatArray, edges: IntArray) -> FloatArray:

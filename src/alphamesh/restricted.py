@@ -16,7 +16,7 @@ from alphamesh._kernels.cells import restricted2
 from alphamesh._weights import signed_square
 from alphamesh.errors import ParameterError
 from alphamesh.filtration import Filtration
-from alphamesh.measures import kernel_balls
+from alphamesh.measures import kernel_balls, rescaled, scaled_radius
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, CodeArray, CountArray, FloatArray, IntArray
@@ -333,27 +333,27 @@ def restricted_voronoi(
             filtration.radii[1] <= radius,
             filtration.edge_triangles,
             _with_cells(filtration, radius),
-            _scaled(radius, exponent),
+            scaled_radius(radius, exponent),
             threads,
             progress,
             weights=weights,
         )
     )
-    arc_length = _rescaled(arc_length, exponent)
+    arc_length = rescaled(arc_length, exponent)
     with np.errstate(over="ignore", under="ignore"):
         sectors = arc_length * ((radius if disc_radii is None else disc_radii) / 2)
-        area = _rescaled(straight_area, 2 * exponent) + sectors
+        area = rescaled(straight_area, 2 * exponent) + sectors
     return RestrictedVoronoi(
         filtration.points,
         filtration.representative,
         radius,
         offset,
-        _rescaled(start, exponent),
-        _rescaled(end, exponent),
+        rescaled(start, exponent),
+        rescaled(end, exponent),
         neighbor,
         angles,
         read_only(area),
-        _rescaled(segment_length, exponent),
+        rescaled(segment_length, exponent),
         arc_length,
         disc_radii,
     )
@@ -384,30 +384,11 @@ def _refuse_others(filtration: Filtration) -> None:
         )
 
 
-def _scaled(radius: float, exponent: int) -> float:
-    """Return the radius over a power of two."""
-    try:
-        return math.ldexp(radius, -exponent)
-    except OverflowError:
-        raise ParameterError(
-            f"a radius of {radius:.6g} is too large beside coordinates as small as these; "
-            "scale the points up"
-        ) from None
-
-
-def _rescaled(array: FloatArray, exponent: int) -> FloatArray:
-    """Return `array` times a power of two; what leaves the range becomes 0 or infinite."""
-    if exponent == 0:
-        return array
-    with np.errstate(over="ignore", under="ignore"):
-        return read_only(np.ldexp(array, exponent))
-
-
 def _checked(radius: object, *, signed: bool) -> float:
     """Return `radius` as a float, or say what is wrong with it."""
-    if isinstance(radius, Real) and math.isfinite(value := float(radius)):
-        if value >= 0 or signed:
-            return value
+    value = float(radius) if isinstance(radius, Real) else math.nan
+    if math.isfinite(value) and (value >= 0 or signed):
+        return value
     least = "" if signed else " of at least 0"
     raise ParameterError(
         f"radius must be a finite number{least}, in the units of the points; got {radius!r}"

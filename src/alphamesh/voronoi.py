@@ -10,7 +10,7 @@ import numpy as np
 
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.cells import restricted2, rings2, voronoi_vertices2
-from alphamesh._weights import nothing_hidden, refuse_weights
+from alphamesh._weights import nothing_hidden
 from alphamesh.clip import ClippedVoronoi, lines_in_box
 from alphamesh.filtration import Filtration, filtration_in_plane
 from alphamesh.measures import kernel_balls, kernel_points
@@ -216,13 +216,8 @@ class Voronoi(Record):
         ParameterError
             If `region` is none of these, or so large or far away beside the points that
             exact arithmetic would overflow.
-        UnweightedOnlyError
-            If the points have weights.
         """
-        refuse_weights(
-            self.weights, "cells cut by a region", "cut restricted_voronoi(radius).to_shapely()"
-        )
-        return cut_cells(self.points, region)
+        return cut_cells(self.points, region, self.weights)
 
     def __repr__(self) -> str:
         unbounded = int(np.count_nonzero(self.cell_vertices < 0))

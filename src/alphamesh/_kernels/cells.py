@@ -111,7 +111,7 @@ def rings2(
     return read_only(offset), read_only(edge), read_only(triangle)
 
 
-def voronoi_vertices2(
+def voronoi_vertices2(  # noqa: PLR0913 (the arrays of a triangulation)
     points: FloatArray,
     triangles: IntArray,
     edges: IntArray,
