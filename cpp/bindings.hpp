@@ -127,6 +127,12 @@ inline ComplexView2 view_of(const Points2& points, const Ids& triangles, const I
           edges.data(),  edges.shape(0),  edge_triangles.data()};
 }
 
+// Weights of points: an empty array for balls of equal size.
+inline ComplexView2 weighted_view(ComplexView2 view, const Values& weights) {
+  if (weights.shape(0) != 0) view.weights = weights.data();
+  return view;
+}
+
 inline nb::object points_array(Buffer<Point2>&& buffer) {
   auto* owner = new Buffer<Point2>(std::move(buffer));
   nb::capsule capsule(owner, [](void* p) noexcept { delete static_cast<Buffer<Point2>*>(p); });

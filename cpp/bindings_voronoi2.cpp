@@ -12,8 +12,9 @@ namespace alphamesh {
 namespace {
 
 nb::tuple voronoi_vertices2_py(const Points2& points, const Ids& triangles, const Ids& edges,
-                               const Ids& edge_triangles, int threads) {
-  const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
+                               const Ids& edge_triangles, const Values& weights, int threads) {
+  const ComplexView2 view =
+      weighted_view(view_of(points, triangles, edges, edge_triangles), weights);
   Job job(useful_threads(threads, view.n));
   VoronoiVertices2 out;
   run_watched(job, view.n, nb::none(), [&] { out = voronoi_vertices2(view, job); });
@@ -42,9 +43,10 @@ nb::object locate2_py(const Points2& points, const Ids& triangles, const Ids& ne
 
 nb::tuple restricted2_py(const Points2& points, const Ids& triangles, const Flags& has_triangle,
                          const Ids& edges, const Flags& has_edge, const Ids& edge_triangles,
-                         const Flags& active, double radius, int threads,
+                         const Flags& active, double radius, const Values& weights, int threads,
                          const nb::object& progress) {
-  const ComplexView2 view = view_of(points, triangles, edges, edge_triangles);
+  const ComplexView2 view =
+      weighted_view(view_of(points, triangles, edges, edge_triangles), weights);
   Job job(useful_threads(threads, view.n));
   RestrictedCells2 c;
   run_watched(job, view.n, progress, [&] {
@@ -60,13 +62,14 @@ nb::tuple restricted2_py(const Points2& points, const Ids& triangles, const Flag
 
 void bind_voronoi2(nb::module_& m) {
   m.def("voronoi_vertices2", &voronoi_vertices2_py, nb::arg("points"), nb::arg("triangles"),
-        nb::arg("edges"), nb::arg("edge_triangles"), nb::arg("threads"));
+        nb::arg("edges"), nb::arg("edge_triangles"), nb::arg("weights"), nb::arg("threads"));
   m.def("hull2", &hull2_py, nb::arg("points"), nb::arg("collinear"), nb::arg("threads"));
   m.def("locate2", &locate2_py, nb::arg("points"), nb::arg("triangles"), nb::arg("neighbors"),
         nb::arg("queries"), nb::arg("threads"));
   m.def("restricted2", &restricted2_py, nb::arg("points"), nb::arg("triangles"),
         nb::arg("has_triangle"), nb::arg("edges"), nb::arg("has_edge"), nb::arg("edge_triangles"),
-        nb::arg("active"), nb::arg("radius"), nb::arg("threads"), nb::arg("progress").none());
+        nb::arg("active"), nb::arg("radius"), nb::arg("weights"), nb::arg("threads"),
+        nb::arg("progress").none());
 }
 
 }  // namespace alphamesh

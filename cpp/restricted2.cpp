@@ -14,12 +14,13 @@ using Id = std::int32_t;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// A cell's segment on the bisector with one neighbour.
+// A cell's segment on the bisector with one neighbour: with weights, on their radical axis.
 struct Segment {
   Id edge, row;      // the neighbour across
   Id before, after;  // triangles at its ends, -1 where it ends on the circle
   double half;       // half the distance to the neighbour
-  double from, to;   // ends along the bisector, from the midpoint on, counter-clockwise
+  double near;       // how far the bisector is; with weights, it may lie behind, below 0
+  double from, to;   // ends along the bisector, from its foot on, counter-clockwise
   Point2 start, end;
 };
 
@@ -38,7 +39,9 @@ class CellMaker {
   void write(Id v, RestrictedCells2& out, std::size_t at);
 
  private:
-  double half_chord(double distance) const;
+  double radius(Id v) const;
+  double foot(Id v, Id row) const;
+  double half_chord(Id v, double distance) const;
   bool has_edge(Id e) const { return edges_[e]; }
   bool has_triangle(Id t) const { return t >= 0 && triangles_[t]; }
   void collect(Id v);
@@ -66,30 +69,50 @@ std::size_t CellMaker::count_pieces(Id v) const {
   return std::max<std::size_t>(1, pieces);
 }
 
+// The radius of the disc of a row.
+double CellMaker::radius(Id v) const {
+  if (view_.weights == nullptr) return r_;
+  return std::sqrt(std::max(0.0, view_.weight(v) + std::copysign(r_ * r_, r_)));
+}
+
+// Where the bisector crosses the line from v to a neighbour: which part of the way it is.
+double CellMaker::foot(Id v, Id row) const {
+  const Point2 a = view_.point(v), b = view_.point(row);
+  const double dx = b.x - a.x, dy = b.y - a.y, change = view_.weight(v) - view_.weight(row);
+  return 0.5 + 0.5 * change / (dx * dx + dy * dy);
+}
+
 // Where the circle around either end crosses the bisector: the same bits for both cells.
 Point2 CellMaker::crossing(Id edge, double along) const {
-  const Point2 a = view_.point(view_.edges[2 * edge]), b = view_.point(view_.edges[2 * edge + 1]);
+  const Id* ends = view_.edges + 2 * edge;
+  const Point2 a = view_.point(ends[0]), b = view_.point(ends[1]);
   const double dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
-  const double share = along / length;
-  return {a.x + 0.5 * dx - share * dy, a.y + 0.5 * dy + share * dx};
+  const double share = along / length, way = foot(ends[0], ends[1]);
+  return {a.x + way * dx - share * dy, a.y + way * dy + share * dx};
 }
 
 // Position of a triangle's circumcentre along the bisector of v and s.row, positive to
 // the left of the way from v to the neighbour: half times the cotangent of the angle at
-// the apex, with the sign of the side on which the apex lies.
+// the apex, with the sign of the side on which the apex lies. Weights move it on.
 double CellMaker::centre_along(Id v, const Segment& s, Id triangle) const {
   const Id* row = view_.triangles + 3 * static_cast<std::size_t>(triangle);
   Id apex = row[0];
   if (apex == v || apex == s.row) apex = row[1];
   if (apex == v || apex == s.row) apex = row[2];
   const Point2 a = view_.point(v), b = view_.point(s.row), c = view_.point(apex);
-  const double dot = (a.x - c.x) * (b.x - c.x) + (a.y - c.y) * (b.y - c.y);
+  double dot = (a.x - c.x) * (b.x - c.x) + (a.y - c.y) * (b.y - c.y);
+  if (view_.weights != nullptr) {
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    const double way = ((c.x - a.x) * dx + (c.y - a.y) * dy) / (dx * dx + dy * dy);
+    dot += view_.weight(v) - view_.weight(apex) - way * (view_.weight(v) - view_.weight(s.row));
+  }
   return s.half * (dot / cross_accurate(a, b, c));
 }
 
 // Half the chord of the circle at this distance from its centre; 0 from the radius on.
-double CellMaker::half_chord(double distance) const {
-  const double less = std::max(0.0, r_ - distance), more = r_ + distance, square = less * more;
+double CellMaker::half_chord(Id v, double distance) const {
+  const double r = radius(v);
+  const double less = std::max(0.0, r - distance), more = r + distance, square = less * more;
   return square < HUGE_VAL ? std::sqrt(square) : std::sqrt(less) * std::sqrt(more);
 }
 
@@ -101,9 +124,11 @@ Segment CellMaker::segment(Id v, Id edge, Id before, Id after) const {
   s.after = has_triangle(after) ? after : -1;
   const Point2 a = view_.point(v), b = view_.point(s.row);
   s.half = 0.5 * std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-  const double reach = half_chord(s.half);
-  // Left of the way from v, as seen from the lower row.
-  const double sign = v == view_.edges[2 * edge] ? 1.0 : -1.0;
+  s.near = 2.0 * foot(v, s.row) * s.half;
+  // As long, and left of the way from v, as seen from the lower row.
+  const Id lower = view_.edges[2 * edge];
+  const double distance = 2.0 * foot(lower, view_.edges[2 * edge + 1]) * s.half;
+  const double reach = half_chord(lower, std::fabs(distance)), sign = v == lower ? 1.0 : -1.0;
   s.to = s.after >= 0 ? centre_along(v, s, s.after) : reach;
   s.from = s.before >= 0 ? centre_along(v, s, s.before) : -reach;
   s.end = s.after >= 0 ? centres_[static_cast<std::size_t>(s.after)] : crossing(edge, sign * reach);
@@ -138,6 +163,7 @@ double CellMaker::turn(Id v, Id from, Id to) const {
 void CellMaker::write(Id v, RestrictedCells2& out, std::size_t at) {
   collect(v);
   const Point2 c = view_.point(v);
+  const double r = radius(v);
   auto put = [&](Point2 start, Point2 end, Id neighbor, double from, double to) {
     out.start[at] = start;
     out.end[at] = end;
@@ -147,11 +173,11 @@ void CellMaker::write(Id v, RestrictedCells2& out, std::size_t at) {
     ++at;
   };
   if (segments_.empty()) {
-    const Point2 p{c.x + r_, c.y};
+    const Point2 p{c.x + r, c.y};
     put(p, p, -1, 0.0, 2.0 * kPi);
     out.straight_area[v] = 0.0;
     out.segment_length[v] = 0.0;
-    out.arc_length[v] = 2.0 * kPi * r_;
+    out.arc_length[v] = 2.0 * kPi * r;
     return;
   }
   double triangles = 0.0, length = 0.0, angles = 0.0;
@@ -159,10 +185,10 @@ void CellMaker::write(Id v, RestrictedCells2& out, std::size_t at) {
     const Segment& s = segments_[i];
     put(s.start, s.end, s.row, kNan, kNan);
     length += s.to - s.from;
-    triangles += 0.5 * s.half * (s.to - s.from);
+    triangles += 0.5 * s.near * (s.to - s.from);
     if (s.after >= 0) continue;
     const Segment& next = segments_[(i + 1) % segments_.size()];
-    const double used = std::atan2(s.to, s.half) + std::atan2(-next.from, next.half);
+    const double used = std::atan2(s.to, s.near) + std::atan2(-next.from, next.near);
     const double angle = std::max(0.0, turn(v, s.row, next.row) - used);
     const double from = std::atan2(s.end.y - c.y, s.end.x - c.x);
     put(s.end, next.start, -1, from, from + angle);
@@ -170,7 +196,7 @@ void CellMaker::write(Id v, RestrictedCells2& out, std::size_t at) {
   }
   out.straight_area[v] = triangles;
   out.segment_length[v] = length;
-  out.arc_length[v] = angles * r_;
+  out.arc_length[v] = angles * r;
 }
 
 }  // namespace

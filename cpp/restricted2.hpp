@@ -26,7 +26,9 @@ struct RestrictedCells2 {
 // Which segments, ends and arcs there are follows from the alpha complex, which is exact
 // (nerve theorem; Edelsbrunner 1995): two cells share a segment if and only if it has their
 // edge, three share a corner if and only if it has their triangle. Only positions and
-// measures are rounded. `active` tells which rows stand for themselves.
+// measures are rounded. `active` tells which rows stand for themselves. With weights, the cells
+// are those of the power diagram, and the disc of row v has the squared radius w_v + a for
+// the power parameter a of `radius`, its signed root.
 RestrictedCells2 restricted2(const ComplexView2& view, const bool* has_triangle,
                              const bool* has_edge, const bool* active, double radius, Job& job);
 

@@ -151,8 +151,14 @@ Buffer<Point2> circumcentres2(const ComplexView2& view, Job& job) {
     for (std::size_t t = parts.begin(part); t < parts.end(part); ++t) {
       // From the vertex opposite to the longest side, where nothing cancels; first in
       // lexicographic order, so that the result depends on the points alone.
-      Point2 p[3];
-      for (std::size_t k = 0; k < 3; ++k) p[k] = view.point(view.triangles[3 * t + k]);
+      struct Ball : Point2 {
+        double w;
+      };
+      Ball p[3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Id row = view.triangles[3 * t + k];
+        p[k] = {view.point(row), view.weight(row)};
+      }
       std::sort(p, p + 3);
       double side[3];
       for (int k = 0; k < 3; ++k) {
@@ -160,9 +166,9 @@ Buffer<Point2> circumcentres2(const ComplexView2& view, Job& job) {
         side[k] = (q.x - r.x) * (q.x - r.x) + (q.y - r.y) * (q.y - r.y);
       }
       const auto k = static_cast<std::size_t>(std::max_element(side, side + 3) - side);
-      const Point2 a = p[k], b = p[(k + 1) % 3], c = p[(k + 2) % 3];
+      const Ball a = p[k], b = p[(k + 1) % 3], c = p[(k + 2) % 3];
       const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
-      const double b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
+      const double b2 = bx * bx + by * by + (a.w - b.w), c2 = cx * cx + cy * cy + (a.w - c.w);
       const double det = 2.0 * cross_accurate(a, b, c);
       out[t] = {a.x + (b2 * (cy / det) - c2 * (by / det)),
                 a.y + (c2 * (bx / det) - b2 * (cx / det))};

@@ -20,7 +20,9 @@ struct ComplexView2 {
   const std::int32_t* edges;  // (E, 2), ascending
   std::size_t edge_count;
   const std::int32_t* edge_triangles;  // (E, 2)
+  const double* weights = nullptr;     // (n), null for balls of equal size
 
+  double weight(std::int32_t row) const { return weights == nullptr ? 0.0 : weights[row]; }
   Point2 point(std::int32_t row) const { return {points[2 * row], points[2 * row + 1]}; }
   std::int32_t across(std::int32_t edge, std::int32_t triangle) const {
     const std::int32_t* t = edge_triangles + 2 * edge;
@@ -48,7 +50,8 @@ Buffer<std::int32_t> triangle_edges2(const ComplexView2& view, Job& job);
 
 Rings2 rings2(const ComplexView2& view, const Buffer<std::int32_t>& triangle_edges, Job& job);
 
-// Circumcentres (T, 2), good to a few ulp of radius and coordinates even on slivers.
+// Circumcentres (T, 2), good to a few ulp of radius and coordinates even on slivers; with
+// weights orthocentres, to a few ulp of what they would be with the roots of these for sides.
 Buffer<Point2> circumcentres2(const ComplexView2& view, Job& job);
 
 }  // namespace alphamesh

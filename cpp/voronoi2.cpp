@@ -5,18 +5,24 @@
 #include <vector>
 
 #include "disjoint_sets.hpp"
+#include "power2.hpp"
 
 namespace alphamesh {
 namespace {
 
 using Id = std::int32_t;
 
-// Whether the two triangles of an edge have all their corners on one circle.
+// Whether the two triangles of an edge have all their corners on one circle; with weights,
+// whether one circle is orthogonal to all of theirs.
 bool cocircular(const ComplexView2& view, Id s, Id t) {
   const Id* a = view.triangles + 3 * static_cast<std::size_t>(s);
   const Id* b = view.triangles + 3 * static_cast<std::size_t>(t);
   int k = 0;  // the corner of t that s does not have
   while (b[k] == a[0] || b[k] == a[1] || b[k] == a[2]) ++k;
+  if (view.weights != nullptr) {
+    auto ball = [&](Id row) { return Weighted<Point2>{view.point(row), view.weight(row)}; };
+    return in_power_circle_or_zero(ball(a[0]), ball(a[1]), ball(a[2]), ball(b[k]), Lattice()) == 0;
+  }
   return in_circle_or_zero(view.point(a[0]), view.point(a[1]), view.point(a[2]), view.point(b[k]),
                            Lattice()) == 0;
 }

@@ -9,7 +9,8 @@
 
 namespace alphamesh {
 
-// One vertex for each triangle: its circumcentre. The triangles of cocircular points have
+// One vertex for each triangle: its circumcentre; with weights its orthocentre, a vertex of the
+// power diagram. The triangles of cocircular points have
 // theirs in one place, to the last bit, and a common group: the lowest of their numbers.
 struct VoronoiVertices2 {
   Buffer<Point2> position;     // (T)

@@ -388,7 +388,6 @@ def test_what_needs_equal_balls_says_so(tmp_path):
     cx = am.AlphaComplex(points, weights=weights)
     for ask, remedy in (
         (lambda: cx.view(tmp_path / "a.html"), "plot"),
-        (lambda: cx.animate(tmp_path / "a.gif"), "plot"),
         (lambda: am.framed_delaunay(_weighted(points, weights)), "frame"),
         (lambda: cx.choose_radius("topology"), "'longest-interval'"),
     ):

@@ -27,7 +27,8 @@ _MOVE, _LINE, _CURVE, _CLOSE = 1, 2, 4, 79
 class Border:
     """Closed outlines, piece after piece; see RestrictedVoronoi for the arrays.
 
-    `cell` is the row of each piece, `points` the centre of the arcs of each row.
+    `cell` is the row of each piece, `points` the centre of the arcs of each row, `radius`
+    that of the largest disc. `radii`, of each row, is None if all discs have that one.
     """
 
     points: FloatArray
@@ -38,6 +39,11 @@ class Border:
     end: FloatArray
     neighbor: IntArray
     angles: FloatArray
+    radii: FloatArray | None = None
+
+    def radius_at(self, piece: AnyArray) -> FloatArray | float:
+        """Return the radius of the circles of the pieces `piece`, or that of all."""
+        return self.radius if self.radii is None else self.radii.take(self.cell[piece])
 
     @property
     def turns(self) -> FloatArray:
@@ -50,7 +56,7 @@ class Border:
     def on_circles(self, piece: AnyArray, angle: FloatArray) -> FloatArray:
         """Return the points at the angles `angle` of the circles of the pieces `piece`."""
         centre: FloatArray = self.points.take(self.cell[piece], axis=0)
-        return centre + self.radius * _unit(angle)
+        return centre + np.reshape(self.radius_at(piece), (-1, 1)) * _unit(angle)
 
 
 def next_pieces(offset: CountArray) -> CountArray:
@@ -66,9 +72,15 @@ def polygons(border: Border, tolerance: float) -> tuple[FloatArray, CountArray]:
     if border.radius == 0:
         return _nothing(len(border.offset))
     # A chord over the angle a is r (1 - cos(a / 2)) = 2 r sin(a / 4)**2 away from its arc.
-    share = tolerance / (2 * border.radius)
-    widest = min(_WIDEST, 4 * math.asin(math.sqrt(share)) if share < 1 else _WIDEST)
     turns = border.turns
+    widest: FloatArray | float
+    if border.radii is None:
+        share = tolerance / (2 * border.radius)
+        widest = min(_WIDEST, 4 * math.asin(math.sqrt(share)) if share < 1 else _WIDEST)
+    else:
+        with np.errstate(divide="ignore"):
+            shares = tolerance / (2 * border.radii.take(border.cell))
+        widest = np.minimum(_WIDEST, 4 * np.arcsin(np.sqrt(np.minimum(shares, 1.0))))
     chords = np.maximum(1, np.ceil(turns / widest)).astype(np.int64)
     first = np.cumsum(chords) - chords
     piece = np.repeat(np.arange(len(chords)), chords)
@@ -134,7 +146,7 @@ def _curves(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return two controls and the end of each curve, `step` curves from its arc's start."""
     angle = border.angles[piece, 0] + turn * step
-    reach = (4 / 3 * border.radius * np.tan(turn / 4))[:, np.newaxis]
+    reach = (4 / 3 * border.radius_at(piece) * np.tan(turn / 4))[:, np.newaxis]
     quarter = math.pi / 2
     start, end = border.on_circles(piece, angle), border.on_circles(piece, angle + turn)
     return (
@@ -160,18 +172,20 @@ def svg_paths(border: Border, digits: int) -> list[str]:
     halfway = border.on_circles(np.arange(len(turns)), border.angles[:, 0] + turns / 2)
     ends, middles = border.end.tolist(), halfway.tolist()
     number = f"%.{digits}g"
-    arc_to = f"A{number % border.radius} {number % border.radius} 0 0 1 {number} {number}"
+    arc_to = f"A{number} {number} 0 0 1 {number} {number}"
     line_to, move_to = f"L{number} {number}", f"M{number} {number}"
+    radii = np.broadcast_to(border.radius_at(np.arange(len(turns))), len(turns)).tolist()
     drawn = []
     for k, (neighbor, turn) in enumerate(
         zip(border.neighbor.tolist(), turns.tolist(), strict=True)
     ):
+        round_ = radii[k], radii[k]
         if neighbor >= 0:
             drawn.append(line_to % tuple(ends[k]))
         elif turn <= math.pi:
-            drawn.append(arc_to % tuple(ends[k]))
+            drawn.append(arc_to % (*round_, *ends[k]))
         else:
-            drawn.append(arc_to % tuple(middles[k]) + arc_to % tuple(ends[k]))
+            drawn.append(arc_to % (*round_, *middles[k]) + arc_to % (*round_, *ends[k]))
     starts = border.start.tolist()
     return [
         move_to % tuple(starts[a]) + "".join(drawn[a:b]) + "Z" if b > a else ""

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
+
+from alphamesh._arrays import read_only
+from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
     from alphamesh._arrays import ComplexArray, FloatArray, IntArray
 
 __all__ = [
     "edge_lengths",
+    "kernel_balls",
     "kernel_points",
+    "rescaled",
     "scaled_points",
+    "scaled_radius",
     "tetrahedron_volumes",
     "total_length",
     "triangle_areas",
@@ -65,6 +72,47 @@ def kernel_points(points: FloatArray) -> tuple[FloatArray, int]:
     if exponent < 0:
         exponent = max(exponent, int(np.frexp(least)[1]) + 187)
     return np.ldexp(points, -exponent), exponent
+
+
+def kernel_balls(
+    points: FloatArray, weights: FloatArray | None
+) -> tuple[FloatArray, FloatArray | None, int]:
+    """Return points and weights as `kernel_points` does, and the exponent of the power of two.
+
+    With weights, kernels suppose coordinates, and roots of weights, below 2**165 whose last
+    digits are above 2**-160: they take products of more factors.
+    """
+    if weights is None:
+        scaled, exponent = kernel_points(points)
+        return scaled, None, exponent
+    sizes = np.concatenate((np.abs(points).ravel(), np.sqrt(np.abs(weights))))
+    largest = float(sizes.max(initial=0.0))
+    least = float(sizes.min(initial=np.inf, where=sizes > 0))
+    if largest < 2.0**164 and least >= 2.0**-106:
+        return points, weights, 0
+    exponent = int(np.frexp(largest)[1]) - 164
+    if exponent < 0:
+        exponent = max(exponent, int(np.frexp(least)[1]) + 105)
+    return np.ldexp(points, -exponent), np.ldexp(weights, -2 * exponent), exponent
+
+
+def rescaled(array: FloatArray, exponent: int) -> FloatArray:
+    """Return `array` times a power of two; what leaves the range becomes 0 or infinite."""
+    if exponent == 0:
+        return array
+    with np.errstate(over="ignore", under="ignore"):
+        return read_only(np.ldexp(array, exponent))
+
+
+def scaled_radius(radius: float, exponent: int) -> float:
+    """Return the radius over a power of two."""
+    try:
+        return math.ldexp(radius, -exponent)
+    except OverflowError:
+        raise ParameterError(
+            f"a radius of {radius:.6g} is too large beside coordinates as small as these; "
+            "scale the points up"
+        ) from None
 
 
 def edge_lengths(points: FloatArray, edges: IntArray) -> FloatArray:

@@ -47,6 +47,7 @@ _FLOAT64 = np.dtype(np.float64)
 # to that power of the last binary digit of the smallest one; so many binary digits fit in
 # between.
 _EXPONENT_RANGES = {2: 490, 3: 325}
+_WEIGHTED_RANGE = 325
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -276,9 +277,9 @@ def refuse_overflow(simplices: IntArray, radii: FloatArray) -> None:
         )
 
 
-def _range_error(points: FloatArray) -> CoordinateRangeError:
+def _range_error(points: FloatArray, digits: int | None = None) -> CoordinateRangeError:
     """Name the rows that are too small beside the others, or too large if these are fewer."""
-    sizes, digits = np.abs(points), _EXPONENT_RANGES[points.shape[1]]
+    sizes, digits = np.abs(points), digits or _EXPONENT_RANGES[points.shape[1]]
     used = sizes > 0
     first = np.where(used, np.frexp(sizes)[1], np.iinfo(np.int32).min)
     last = np.where(used, _last_digit(sizes), np.iinfo(np.int32).max)
@@ -305,11 +306,11 @@ def _range_error(points: FloatArray) -> CoordinateRangeError:
 
 def _weight_range_error(points: FloatArray, weights: FloatArray) -> CoordinateRangeError:
     """Name the weights that are too large or too small beside the points, or the points."""
-    digits = _EXPONENT_RANGES[points.shape[1]]
+    digits = _WEIGHTED_RANGE
     sizes, masses = np.abs(points), np.abs(weights)
     top, bottom = _digits_used(sizes)
     if top - bottom > digits:
-        return _range_error(points)
+        return _range_error(points, digits)
     used = masses > 0
     # A weight counts as a coordinate squared does: its digits are half as far from 1.
     first, last = np.frexp(masses)[1], _last_digit(masses)

@@ -9,10 +9,11 @@ import numpy as np
 from alphamesh import _kernels, _shapely
 from alphamesh._arrays import read_only
 from alphamesh._kernels.cells import rings2, voronoi_vertices2
+from alphamesh._kernels.weighted import regular2
 from alphamesh.arcs import without_repeats
 from alphamesh.clip import ClippedVoronoi, Rings, clip_rings
 from alphamesh.errors import ParameterError
-from alphamesh.measures import kernel_points
+from alphamesh.measures import kernel_balls
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
@@ -53,12 +54,16 @@ def _table(region: Any) -> FloatArray:
     return table.astype(np.float64) if table.dtype.kind in "iuf" else np.empty(0)
 
 
-def cut_cells(points: FloatArray, region: Any) -> ClippedVoronoi:
+def cut_cells(
+    points: FloatArray, region: Any, weights: FloatArray | None = None
+) -> ClippedVoronoi:
     """Cut the Voronoi cells of a cloud by a region; see :meth:`alphamesh.Voronoi.clip`."""
     polygon = hasattr(region, "geom_type")
     border = _shapely_bounds(region) if polygon else _corners(region)
-    _, exponent = kernel_points(np.concatenate((points, border)))
-    cells = _bounded_cells(np.ldexp(points, -exponent), np.ldexp(border, -exponent))
+    masses = None if weights is None else np.append(weights, np.zeros(len(border)))
+    exponent = kernel_balls(np.concatenate((points, border)), masses)[2]
+    masses = None if weights is None else np.ldexp(weights, -2 * exponent)
+    cells = _bounded_cells(np.ldexp(points, -exponent), masses, np.ldexp(border, -exponent))
     if polygon:
         outlines = _shapely.polygons(*cells, "Cutting cells by a polygon")
         vertices, ring_offset, hole, offset = _shapely.clipped(
@@ -116,22 +121,27 @@ def _is_convex(corners: FloatArray) -> bool:
     return bool((turns >= 0).all() and (seen >= 0).all() and (seen > 0).any())
 
 
-def _bounded_cells(points: FloatArray, region: FloatArray) -> Rings:
+def _bounded_cells(points: FloatArray, weights: FloatArray | None, region: FloatArray) -> Rings:
     """Return the cells as rings that are right wherever the region is, and never infinite.
 
     Four more points take the place of infinity. They are so far away that no part of the
-    region is nearer to one of them than to any point of the cloud.
+    region is nearer to one of them than to any point of the cloud; nor are they heavier.
     """
     walled = _walled(points, region)
+    masses = None
     try:
-        _, triangles, _, edges, _, cofaces = _kernels.alpha2(walled)
+        if weights is None:
+            _, triangles, _, edges, _, cofaces = _kernels.alpha2(walled)
+        else:
+            masses = np.append(weights, np.full(4, weights.min(initial=0.0)))
+            _, _, (_, edges, triangles), _, cofaces = regular2(walled, masses)
     except _kernels.BadCoordinates:
         raise ParameterError(
             "region is too large, too small or too far away beside the points for exact "
             "arithmetic; choose one of about their size"
         ) from None
     offset, _, after = rings2(walled, triangles, edges, cofaces)
-    vertices, _ = voronoi_vertices2(walled, triangles, edges, cofaces)
+    vertices, _ = voronoi_vertices2(walled, triangles, edges, cofaces, weights=masses)
     count = len(points)
     return without_repeats(vertices[after[: offset[count]]], offset[: count + 1])
 

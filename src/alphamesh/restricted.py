@@ -13,10 +13,10 @@ import numpy as np
 from alphamesh import _shapely, arcs
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.cells import restricted2
-from alphamesh._weights import refuse_weights
+from alphamesh._weights import signed_square
 from alphamesh.errors import ParameterError
 from alphamesh.filtration import Filtration
-from alphamesh.measures import kernel_points
+from alphamesh.measures import kernel_balls, rescaled, scaled_radius
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, CodeArray, CountArray, FloatArray, IntArray
@@ -39,7 +39,8 @@ class RestrictedVoronoi(Record):
     ----------
     points : (n, 2) float64
     representative : (n,) int32
-        The lowest row with the coordinates of row i. Only that row has a cell.
+        The lowest row with the coordinates of row i. Only that row has a cell; with
+        weights, the lowest of the heaviest ones, once its disc reaches its cell.
     radius : float
     offset : (n + 1,) int64
         Pieces ``offset[i]`` to ``offset[i + 1]`` of the arrays below are the border of the
@@ -57,6 +58,9 @@ class RestrictedVoronoi(Record):
         Area of each cell; 0 for merged duplicates.
     segment_length, arc_length : (n,) float64
         Length of the straight and of the round part of each border.
+    disc_radii : (n,) float64 or None
+        With weights, the radius of each disc: the root of weight and signed square of
+        `radius`, 0 where that is negative. None if `radius` is that of all.
 
     All arrays are read-only.
 
@@ -84,6 +88,7 @@ class RestrictedVoronoi(Record):
     area: FloatArray
     segment_length: FloatArray
     arc_length: FloatArray
+    disc_radii: FloatArray | None = None
 
     # Pieces
 
@@ -155,6 +160,13 @@ class RestrictedVoronoi(Record):
         with np.errstate(over="ignore"):
             return float(self.arc_length.sum())
 
+    @property
+    def largest_radius(self) -> float:
+        """Radius of the largest disc."""
+        if self.disc_radii is None:
+            return self.radius
+        return float(self.disc_radii.max(initial=0.0))
+
     # Outlines
 
     def polygons(self, tolerance: float | None = None) -> tuple[FloatArray, CountArray]:
@@ -164,7 +176,7 @@ class RestrictedVoronoi(Record):
         ----------
         tolerance : float, optional
             The most that a chord may be away from its arc, in the units of the points; by
-            default a thousandth of the radius.
+            default a thousandth of the radius, with weights of the largest one.
 
         Returns
         -------
@@ -245,18 +257,19 @@ class RestrictedVoronoi(Record):
     def _border(self) -> arcs.Border:
         return arcs.Border(
             self.points,
-            self.radius,
+            self.largest_radius,
             self.offset,
             self.cell,
             self.start,
             self.end,
             self.neighbor,
             self.angles,
+            self.disc_radii,
         )
 
     def _tolerance(self, tolerance: float | None) -> float:
         if tolerance is None:
-            return self.radius / 1000
+            return self.largest_radius / 1000
         if not isinstance(tolerance, Real) or not tolerance > 0:
             raise ParameterError(
                 "tolerance must be a positive number in the units of the points, or None "
@@ -281,13 +294,15 @@ def restricted_voronoi(
 ) -> RestrictedVoronoi:
     """Cut every Voronoi cell of a cloud by the disc of `radius` around its point.
 
+    With weights, every cell of the power diagram by the disc of its point's own radius.
+
     Parameters
     ----------
     filtration : Filtration
         From :func:`alphamesh.filtration.filtration`, or ``AlphaComplex.filtration``. Its
         exact values decide which segments and corners there are.
     radius : float
-        In the units of the points; finite, 0 or more.
+        In the units of the points; finite, 0 or more unless these have weights.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
         on it.
@@ -303,13 +318,12 @@ def restricted_voronoi(
     ParameterError
         If `radius` is not a finite number of at least 0, or one of the others is not what
         it must be.
-    UnweightedOnlyError
-        If the points have weights.
     """
     _refuse_others(filtration)
-    radius = _checked(radius)
-    points, exponent = kernel_points(filtration.points)
+    radius = _checked(radius, signed=filtration.weights is not None)
+    points, weights, exponent = kernel_balls(filtration.points, filtration.weights)
     _, edges, triangles = filtration.simplices
+    disc_radii = _disc_radii(filtration.weights, radius)
     offset, start, end, neighbor, angles, straight_area, segment_length, arc_length = (
         restricted2(
             points,
@@ -318,69 +332,64 @@ def restricted_voronoi(
             edges,
             filtration.radii[1] <= radius,
             filtration.edge_triangles,
-            filtration.representative == np.arange(len(points), dtype=np.int32),
-            _scaled(radius, exponent),
+            _with_cells(filtration, radius),
+            scaled_radius(radius, exponent),
             threads,
             progress,
+            weights=weights,
         )
     )
-    arc_length = _rescaled(arc_length, exponent)
+    arc_length = rescaled(arc_length, exponent)
     with np.errstate(over="ignore", under="ignore"):
-        area = _rescaled(straight_area, 2 * exponent) + arc_length * (radius / 2)
+        sectors = arc_length * ((radius if disc_radii is None else disc_radii) / 2)
+        area = rescaled(straight_area, 2 * exponent) + sectors
     return RestrictedVoronoi(
         filtration.points,
         filtration.representative,
         radius,
         offset,
-        _rescaled(start, exponent),
-        _rescaled(end, exponent),
+        rescaled(start, exponent),
+        rescaled(end, exponent),
         neighbor,
         angles,
         read_only(area),
-        _rescaled(segment_length, exponent),
+        rescaled(segment_length, exponent),
         arc_length,
+        disc_radii,
     )
 
 
+def _with_cells(filtration: Filtration, radius: float) -> BoolArray:
+    """Return which rows have a cell at a radius: the vertices of the complex."""
+    has = np.zeros(len(filtration.points), dtype=np.bool_)
+    has[filtration.simplices[0][:, 0]] = filtration.radii[0] <= radius
+    return has
+
+
+def _disc_radii(weights: FloatArray | None, radius: float) -> FloatArray | None:
+    """Return the radius of each disc; None without weights."""
+    if weights is None:
+        return None
+    squares = weights + signed_square(np.array(radius))
+    return read_only(np.sqrt(np.maximum(squares, 0.0)))
+
+
 def _refuse_others(filtration: Filtration) -> None:
-    """Raise unless this is a filtration of balls of equal size in the plane."""
+    """Raise unless this is a filtration in the plane."""
     given: Any = filtration
     if not isinstance(given, Filtration):
         raise ParameterError(
             f"restricted_voronoi needs a filtration, not {type(given).__name__}; make one with "
             "alphamesh.filtration(points), or use AlphaComplex.restricted_voronoi(radius)"
         )
-    refuse_weights(
-        filtration.weights,
-        "restricted Voronoi cells",
-        "for the complex itself, see AlphaComplex.at(radius)",
-    )
 
 
-def _scaled(radius: float, exponent: int) -> float:
-    """Return the radius over a power of two."""
-    try:
-        return math.ldexp(radius, -exponent)
-    except OverflowError:
-        raise ParameterError(
-            f"a radius of {radius:.6g} is too large beside coordinates as small as these; "
-            "scale the points up"
-        ) from None
-
-
-def _rescaled(array: FloatArray, exponent: int) -> FloatArray:
-    """Return `array` times a power of two; what leaves the range becomes 0 or infinite."""
-    if exponent == 0:
-        return array
-    with np.errstate(over="ignore", under="ignore"):
-        return read_only(np.ldexp(array, exponent))
-
-
-def _checked(radius: object) -> float:
+def _checked(radius: object, *, signed: bool) -> float:
     """Return `radius` as a float, or say what is wrong with it."""
-    if isinstance(radius, Real) and math.isfinite(value := float(radius)) and value >= 0:
+    value = float(radius) if isinstance(radius, Real) else math.nan
+    if math.isfinite(value) and (value >= 0 or signed):
         return value
+    least = "" if signed else " of at least 0"
     raise ParameterError(
-        "radius must be a finite number of at least 0, in the units of the points; "
-        f"got {radius!r}"
+        f"radius must be a finite number{least}, in the units of the points; got {radius!r}"
     )

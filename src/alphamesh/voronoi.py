@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -10,10 +10,11 @@ import numpy as np
 
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.cells import restricted2, rings2, voronoi_vertices2
-from alphamesh._weights import refuse_weights
+from alphamesh._weights import nothing_hidden
 from alphamesh.clip import ClippedVoronoi, lines_in_box
 from alphamesh.filtration import Filtration, filtration_in_plane
-from alphamesh.measures import kernel_points
+from alphamesh.measures import kernel_balls, kernel_points
+from alphamesh.points import as_cloud
 from alphamesh.region import as_box, cut_cells
 
 if TYPE_CHECKING:
@@ -58,6 +59,12 @@ class Voronoi(Record):
     cell_vertices : (2E,) int32
         The vertex after each ridge, between it and the next; -1 after the one that runs to
         infinity, and everywhere for a cloud on one line.
+    weights : (n,) float64 or None
+        Squared radii of balls: then all is that of the power diagram [2]_, in which a point
+        p is as far from x as ``|x - p|**2 - w`` tells, and vertices are the orthocentres of
+        the triangles. None for balls of equal size.
+    hidden : (h,) int32
+        Rows that have no cell in a power diagram, ascending.
 
     All arrays are read-only.
 
@@ -65,6 +72,8 @@ class Voronoi(Record):
     ----------
     .. [1] F. Aurenhammer, Voronoi diagrams: a survey of a fundamental geometric data
        structure, ACM Computing Surveys 23 (1991) 345-405.
+    .. [2] F. Aurenhammer, Power diagrams: properties, algorithms and applications, SIAM
+       Journal on Computing 16 (1987) 78-96.
     """
 
     points: FloatArray
@@ -77,6 +86,8 @@ class Voronoi(Record):
     offset: CountArray
     cell_ridges: IntArray
     cell_vertices: IntArray
+    weights: FloatArray | None = None
+    hidden: IntArray = field(default_factory=nothing_hidden)
 
     # Cells
 
@@ -89,16 +100,17 @@ class Voronoi(Record):
 
     @cached_property
     def areas(self) -> FloatArray:
-        """Area of each cell, ``(n,)`` float64: infinite if unbounded, 0 if merged."""
+        """Area of each cell, ``(n,)`` float64: infinite if unbounded, 0 if merged or hidden."""
         areas = np.full(len(self.points), np.inf)
         areas[self.representative != np.arange(len(self.points))] = 0.0
+        areas[self.hidden] = 0.0
         areas[self.bounded] = self._measured[self.bounded]
         return read_only(areas)
 
     @cached_property
     def _measured(self) -> FloatArray:
         """Areas of bounded cells: of restricted ones, as if every simplex were there."""
-        points, exponent = kernel_points(self.points)
+        points, weights, exponent = kernel_balls(self.points, self.weights)
         cofaces = np.sort(self.ridge_vertices, axis=1)[:, ::-1]
         area = restricted2(
             points,
@@ -107,8 +119,9 @@ class Voronoi(Record):
             self.ridge_points,
             np.ones(len(self.ridge_points), dtype=np.bool_),
             np.ascontiguousarray(cofaces),
-            self.representative == np.arange(len(points)),
+            np.diff(self.offset) > 0,
             0.0,
+            weights=weights,
         )[5]
         with np.errstate(over="ignore", under="ignore"):
             measured: FloatArray = np.ldexp(area, 2 * exponent)
@@ -137,9 +150,19 @@ class Voronoi(Record):
 
     @cached_property
     def ridge_midpoints(self) -> FloatArray:
-        """Midpoint of the two points of each ridge, ``(E, 2)`` float64: on its line."""
+        """Midpoint of the two points of each ridge, ``(E, 2)`` float64: on its line.
+
+        With weights, the point between or beside them that is on that line.
+        """
         first, second = self.points[self.ridge_points.T]
-        return read_only(0.5 * first + 0.5 * second)
+        if self.weights is None:
+            return read_only(0.5 * first + 0.5 * second)
+        points, weights, exponent = kernel_balls(self.points, self.weights)
+        assert weights is not None
+        first, second = points[self.ridge_points.T]
+        change = -np.diff(weights[self.ridge_points], axis=1)
+        way = 0.5 + 0.5 * change / ((second - first) ** 2).sum(axis=1, keepdims=True)
+        return read_only(np.ldexp(first + way * (second - first), exponent))
 
     @cached_property
     def is_zero_length(self) -> BoolArray:
@@ -194,7 +217,7 @@ class Voronoi(Record):
             If `region` is none of these, or so large or far away beside the points that
             exact arithmetic would overflow.
         """
-        return cut_cells(self.points, region)
+        return cut_cells(self.points, region, self.weights)
 
     def __repr__(self) -> str:
         unbounded = int(np.count_nonzero(self.cell_vertices < 0))
@@ -205,7 +228,11 @@ class Voronoi(Record):
 
 
 def voronoi(
-    points: Any, *, threads: int | None = None, progress: Progress | None = None
+    points: Any,
+    *,
+    weights: Any = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Voronoi:
     """Compute the Voronoi diagram of a cloud; every decision is exact, positions are rounded.
 
@@ -214,6 +241,9 @@ def voronoi(
     points : array-like of shape (n, 2)
         See :func:`alphamesh.points.as_cloud`. Duplicates are merged. Any number of points
         is legal; those on one line have parallel lines for ridges.
+    weights : array-like of shape (n,), optional
+        Squared radii of balls: then this is the power diagram. By default all balls are of
+        equal size.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
         on it.
@@ -231,23 +261,20 @@ def voronoi(
     ParameterError
         If `threads` or `progress` is not what it must be.
     """
-    built = filtration_in_plane(points, threads=threads, progress=progress)
+    cloud = as_cloud(points, 2, weights)
+    built = filtration_in_plane(cloud, threads=threads, progress=progress)
     return voronoi_of(built, threads=threads)
 
 
 def voronoi_of(filtration: Filtration, *, threads: int | None = None) -> Voronoi:
     """Return the Voronoi diagram that is dual to the triangulation of a filtration."""
-    refuse_weights(
-        filtration.weights,
-        "Voronoi diagrams",
-        "the neighbours in a power diagram are the edges of alphamesh.delaunay(points, "
-        "weights=weights)",
-    )
-    points, exponent = kernel_points(filtration.points)
+    points, weights, exponent = kernel_balls(filtration.points, filtration.weights)
     _, edges, triangles = filtration.simplices
     cofaces = filtration.edge_triangles
     offset, ridges, after = rings2(points, triangles, edges, cofaces, threads)
-    vertices, group = voronoi_vertices2(points, triangles, edges, cofaces, threads)
+    vertices, group = voronoi_vertices2(
+        points, triangles, edges, cofaces, threads, weights=weights
+    )
     if exponent:
         with np.errstate(over="ignore", under="ignore"):
             vertices = read_only(np.ldexp(vertices, exponent))
@@ -262,6 +289,8 @@ def voronoi_of(filtration: Filtration, *, threads: int | None = None) -> Voronoi
         offset,
         ridges,
         after,
+        filtration.weights,
+        filtration.hidden,
     )
 
 

@@ -134,3 +134,21 @@ def test_a_missing_weight_is_told_with_its_row(folder):
 
 def test_json_is_json(table):
     assert json.loads(ok("radius", table, "--weights", "w", "--json"))["rule"] == "weights"
+
+
+def test_power_cells_on_the_command_line(table):
+    assert facts("voronoi", table, "--weights", "w")["cells"] == len(CX.simplices[0])
+    ok("voronoi", table, "--weights", "w", "-o", "v.npz")
+    with np.load("v.npz") as arrays:
+        assert np.array_equal(arrays["hidden"], CX.hidden)
+    out = facts("restricted", table, "--weights", "w", "-r", "-0.01", "-o", "r.npz")
+    assert out["area"] == CX.restricted_voronoi(-0.01).total_area
+    with np.load("r.npz") as arrays:
+        assert np.array_equal(arrays["disc_radii"], CX.restricted_voronoi(-0.01).disc_radii)
+    ok("plot", table, "--weights", "w", "-o", "p.png", "--view", "story")
+
+
+@pytest.mark.parametrize("view", ["frame", "outlines"])
+def test_views_without_a_meaning_are_refused(table, view):
+    message = refused(1, "plot", table, "--weights", "w", "--view", view, "-o", "p.png")
+    assert "balls of equal size" in message

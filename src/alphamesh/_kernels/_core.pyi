@@ -109,6 +109,7 @@ def voronoi_vertices2(
     triangles: NDArray[np.int32],
     edges: NDArray[np.int32],
     edge_triangles: NDArray[np.int32],
+    weights: NDArray[np.float64],
     threads: int,
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]: ...
 def restricted2(
@@ -120,6 +121,7 @@ def restricted2(
     edge_triangles: NDArray[np.int32],
     active: NDArray[np.bool_],
     radius: float,
+    weights: NDArray[np.float64],
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> tuple[

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from alphamesh._arrays import read_only
 from alphamesh._kernels import (
     Progress,
@@ -109,16 +111,19 @@ def rings2(
     return read_only(offset), read_only(edge), read_only(triangle)
 
 
-def voronoi_vertices2(
+def voronoi_vertices2(  # noqa: PLR0913 (the arrays of a triangulation)
     points: FloatArray,
     triangles: IntArray,
     edges: IntArray,
     edge_triangles: IntArray,
     threads: int | None = None,
+    *,
+    weights: FloatArray | None = None,
 ) -> tuple[FloatArray, IntArray]:
     """Return the circumcentres of triangles; those of cocircular points are the same.
 
-    Parameters are those of :func:`rings2`.
+    Parameters are those of :func:`rings2`, and weights of the points: with these, vertices
+    of the power diagram.
 
     Returns
     -------
@@ -127,7 +132,8 @@ def voronoi_vertices2(
         The first triangle with the same circumcircle.
     """
     threads = resolve_threads(threads)
-    result = _core.voronoi_vertices2(points, triangles, edges, edge_triangles, threads)
+    masses = np.empty(0) if weights is None else weights
+    result = _core.voronoi_vertices2(points, triangles, edges, edge_triangles, masses, threads)
     return read_only(result[0]), read_only(result[1])
 
 
@@ -142,6 +148,8 @@ def restricted2(  # noqa: PLR0913, PLR0917 (the arrays of a complex)
     radius: float,
     threads: int | None = None,
     progress: Progress | None = None,
+    *,
+    weights: FloatArray | None = None,
 ) -> tuple[Any, ...]:
     """Return the borders and measures of restricted Voronoi cells.
 
@@ -159,6 +167,8 @@ def restricted2(  # noqa: PLR0913, PLR0917 (the arrays of a complex)
     radius : float
     threads : int, optional
     progress : callable, optional
+    weights : (n,) float64, optional
+        Squared radii of balls, to which the signed square of `radius` is added.
 
     Returns
     -------
@@ -177,6 +187,7 @@ def restricted2(  # noqa: PLR0913, PLR0917 (the arrays of a complex)
         edge_triangles,
         active,
         radius,
+        np.empty(0) if weights is None else weights,
         threads,
         progress,
     )

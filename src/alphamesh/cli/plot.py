@@ -162,6 +162,7 @@ def figure_of(view: str, built: AlphaComplex, radius: float | None) -> Figure:
     from alphamesh import plot
     from alphamesh.complex3d import AlphaComplex3D
     from alphamesh.frame import framed_delaunay
+    from alphamesh.points import Cloud
 
     composed: dict[str, Callable[[], Figure]] = {
         "story": lambda: plot.plot_story(built, radius),
@@ -180,7 +181,9 @@ def figure_of(view: str, built: AlphaComplex, radius: float | None) -> Figure:
         "hull": lambda: plot.plot_hull(built.convex_hull),
         "voronoi": lambda: plot.plot_voronoi(built.voronoi),
         "delaunay": lambda: plot.plot_delaunay(built.delaunay),
-        "frame": lambda: plot.plot_frame(framed_delaunay(built.points)),
+        "frame": lambda: plot.plot_frame(
+            framed_delaunay(Cloud(built.points, weights=built.weights))
+        ),
         "filtration": lambda: plot.plot_filtration(built.filtration),
         "restricted": lambda: plot.plot_restricted_voronoi(built.restricted_voronoi(radius)),
         "union": lambda: plot.plot_union(built.restricted_voronoi(radius)),

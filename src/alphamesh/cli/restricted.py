@@ -112,7 +112,8 @@ def _write(cells: RestrictedVoronoi, path: Path) -> None:
         "arc_length": cells.arc_length,
         "neighbors": np.diff(segments[cells.offset]),
     }
-    arrays = {name: np.asarray(getattr(cells, name)) for name in _ARRAYS}
+    names = _ARRAYS if cells.disc_radii is None else (*_ARRAYS, "disc_radii")
+    arrays = {name: np.asarray(getattr(cells, name)) for name in names}
     write_table(path, columns, arrays)
 
 

@@ -68,7 +68,9 @@ def command(
 
 def _told(cells: Voronoi) -> tuple[dict[str, Any], dict[str, str]]:
     bounded = int(np.count_nonzero(cells.bounded))
-    own = int(np.count_nonzero(cells.representative == np.arange(len(cells.points))))
+    has = cells.representative == np.arange(len(cells.points))
+    has[cells.hidden] = False
+    own = int(np.count_nonzero(has))
     ridges = len(cells.ridge_points)
     facts = {
         "cells": own,
@@ -94,7 +96,8 @@ def _write(cells: Voronoi, path: Path) -> None:
         "area": cells.areas,
         "neighbors": np.diff(cells.offset),
     }
-    arrays = {name: np.asarray(getattr(cells, name)) for name in _ARRAYS}
+    names = _ARRAYS if cells.weights is None else (*_ARRAYS, "weights", "hidden")
+    arrays = {name: np.asarray(getattr(cells, name)) for name in names}
     write_table(path, columns, arrays)
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alphamesh._weights import refuse_weights
 from alphamesh.errors import (
     FileWriteError,
     MissingLibraryError,
@@ -112,8 +111,6 @@ def animate(  # noqa: PLR0913 (all but two are options)
         If the extension is unknown, the file cannot be written, or ffmpeg is missing.
     MissingLibraryError
         If matplotlib or Pillow is not installed.
-    UnweightedOnlyError
-        If the points have weights.
 
     Notes
     -----
@@ -129,7 +126,6 @@ def animate(  # noqa: PLR0913 (all but two are options)
     _check_numbers(fps, hold, width)
     need_writer(suffix)
     pairs = _persistence_of(source)
-    refuse_weights(pairs.filtration.weights, "films", "draw pictures with cx.at(radius).plot()")
     degrees = _checked_turn(turn, pairs.filtration)
     chosen = film_radii(pairs, radii, frames)
     view = _view(pairs, chosen, int(width), degrees)
@@ -154,12 +150,16 @@ def _view(pairs: Persistence, radii: FloatArray, width: int, turn: float) -> Fil
     except MissingLibraryError:
         raise MissingLibraryError.of("matplotlib", "plot", "Drawing a film") from None
     if isinstance(pairs.filtration, Filtration3D):
-        return GrowthView3D(pairs, _shown(radii), width=width, turn=turn)
-    return GrowthView(pairs, _shown(radii), width=width)
+        return GrowthView3D(pairs, _shown(pairs, radii), width=width, turn=turn)
+    return GrowthView(pairs, _shown(pairs, radii), width=width)
 
 
-def _shown(radii: FloatArray) -> tuple[float, float]:
-    """Return the range of radii for the Betti curves, both positive."""
+def _shown(pairs: Persistence, radii: FloatArray) -> tuple[float, float]:
+    """Return the range of radii for the Betti curves: without weights, both positive."""
+    if pairs.filtration.weights is not None:
+        low, high = float(np.min(radii)), float(np.max(radii))
+        around = 0.02 * (high - low) or 1.0
+        return low - around, high + around
     positive = radii[radii > 0]
     if len(positive) == 0:
         return 0.1, 1.0

@@ -151,7 +151,7 @@ def plot_restricted_voronoi(
     ParameterError
         If `coloring` does not have one number for each point.
     """
-    canvas = Canvas(cells.points, ax, reach=cells.radius)
+    canvas = Canvas(cells.points, ax, reach=cells.largest_radius)
     add_restricted(canvas, cells, coloring)
     _add_points(canvas)
     return canvas.drawing()
@@ -168,7 +168,7 @@ def add_restricted(
         ends = np.stack((cells.start[mine], cells.end[mine]), axis=1)
         width = 1.3 * canvas.sizes.edge
         canvas.strokes("segments", line_paths(ends), width, of=len(ends))
-    _add_arcs(canvas, outlines, cells.radius)
+    _add_arcs(canvas, outlines, cells.largest_radius)
 
 
 def plot_union(cells: RestrictedVoronoi, ax: Axes | None = None) -> Drawing:
@@ -187,11 +187,11 @@ def plot_union(cells: RestrictedVoronoi, ax: Axes | None = None) -> Drawing:
         With the artists ``"union"``, ``"arcs"`` (its border) and, where there is room for
         them, ``"points"``.
     """
-    canvas = Canvas(cells.points, ax, reach=cells.radius)
+    canvas = Canvas(cells.points, ax, reach=cells.largest_radius)
     outlines = cells.bezier_paths()
     rows = np.flatnonzero(np.diff(outlines[2]))
     canvas.fill("union", outline_paths(*outlines, rows), of=len(rows))
-    _add_arcs(canvas, outlines, cells.radius)
+    _add_arcs(canvas, outlines, cells.largest_radius)
     _add_points(canvas)
     return canvas.drawing()
 

@@ -43,7 +43,7 @@ class FilmView:
     persistence : Persistence
         Of the filtration to be shown.
     radii : (low, high)
-        The range of radii that the Betti curves show, both positive.
+        The range of radii that the Betti curves show, without weights both positive.
     titles : (str, str)
         What is written above the two drawings.
     slope : float
@@ -128,19 +128,28 @@ class GrowthView(FilmView):
         points = self._filtration.points
         edges = self._filtration.simplices[1]
         self._coloring = cell_coloring(len(points), edges)
-        self._reach = radii[1]
-        titles = "Voronoi cells within r", "Alpha complex at r"
+        self._reach = _farthest(self._filtration, radii[1])
+        cells = "Voronoi" if self._filtration.weights is None else "Power"
+        titles = f"{cells} cells within r", "Alpha complex at r"
         super().__init__(persistence, radii, titles, _slope(points, self._reach), width)
 
     def _draw(self, radius: float, along: float) -> None:
         left, right = self._axes
         canvas = Canvas(self._filtration.points, left, reach=self._reach)
-        if radius > 0:
+        if radius > 0 or self._filtration.weights is not None:
             add_restricted(canvas, restricted_voronoi(self._filtration, radius), self._coloring)
         if canvas.sizes.shows_edges or radius == 0:
             canvas.markers("points", slice(None), 0.6 * canvas.sizes.point)
         shape = AlphaShape(self._filtration, radius)
         add_complex(Canvas(self._filtration.points, right, reach=self._reach), shape)
+
+
+def _farthest(filtration: Filtration, radius: float) -> float:
+    """Return the radius of the largest disc at a radius."""
+    if filtration.weights is None:
+        return radius
+    most = float(filtration.weights.max(initial=0.0)) + radius * abs(radius)
+    return float(np.sqrt(max(most, 0.0)))
 
 
 def _slope(points: NDArray[np.float64], reach: float) -> float:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from alphamesh.filtration import Filtration
     from alphamesh.plot.panels import HasFiltration
 
-__all__ = ["cloud_text", "delaunay_text", "plot_overview"]
+__all__ = ["cloud_text", "delaunay_text", "delaunay_title", "plot_overview"]
 
 
 def plot_overview(source: Filtration | HasFiltration, radius: float | None = None) -> Figure:
@@ -56,11 +56,17 @@ def plot_overview(source: Filtration | HasFiltration, radius: float | None = Non
     plot_cloud(filtration.points, left)
     add_title(left, "Cloud", cloud_text(filtration))
     plot_delaunay(filtration, middle)
-    add_title(middle, "Delaunay triangulation", delaunay_text(filtration))
+    add_title(middle, *delaunay_title(filtration))
     drawing = plot_complex(shape, right)
     add_title(right, f"Alpha complex, radius {radius:.4g}", complex_text(shape))
     add_legend(figure, right, drawing.artists)
     return figure
+
+
+def delaunay_title(filtration: Filtration) -> tuple[str, str]:
+    """Return the name of the triangulation, and how many simplices it has."""
+    name = "Delaunay" if filtration.weights is None else "Regular"
+    return f"{name} triangulation", delaunay_text(filtration)
 
 
 def delaunay_text(filtration: Filtration) -> str:

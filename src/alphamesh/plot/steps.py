@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from alphamesh._weights import has_weights
 from alphamesh.betti import checked_radii
 from alphamesh.errors import ParameterError
 from alphamesh.frame import framed_delaunay
@@ -18,6 +19,7 @@ from alphamesh.plot.outlines import plot_frame, plot_hull
 from alphamesh.plot.overview import delaunay_text
 from alphamesh.plot.panels import add_legend, add_title, counted, filtration_of, panels
 from alphamesh.plot.topology import betti_text
+from alphamesh.points import Cloud
 from alphamesh.radius import choose_radius
 from alphamesh.restricted import restricted_voronoi
 from alphamesh.shape import AlphaShape
@@ -50,7 +52,7 @@ def plot_outlines(
     """
     filtration = filtration_of(source)
     if framed is None:
-        framed = framed_delaunay(filtration.points)
+        framed = framed_delaunay(Cloud(filtration.points, weights=filtration.weights))
     hull = convex_hull(filtration.points)
     figure, (left, middle, right) = panels(filtration.points, 3)
     plot_hull(hull, left)
@@ -89,7 +91,10 @@ def plot_radii(
         If `radii` is empty, too long, or holds what is no finite radius.
     """
     filtration = filtration_of(source)
-    shown = three_radii(filtration) if radii is None else checked_radii(radii).tolist()
+    signed = filtration.weights is not None
+    shown = three_radii(filtration)
+    if radii is not None:
+        shown = checked_radii(radii, signed=signed).tolist()
     if not 1 <= np.size(shown) <= 6 or not np.isfinite(shown).all():
         raise ParameterError(f"radii must be one to six finite numbers; got {radii!r}")
     pairs = persistence(filtration)
@@ -117,10 +122,14 @@ def three_radii(filtration: Filtration) -> list[float]:
     if len(filtration.points) == 0:
         return [0.0]
     chosen = choose_radius(filtration).radius
-    if chosen == 0:
+    if chosen == 0 and not has_weights(filtration.weights):
         return [0.0]
     holes = persistence(filtration).diagram(1)
     # Beyond the death of the hole that lasts longest, nothing is left of the shape.
     lengths = holes[:, 1] - holes[:, 0]
     filled = float(holes[np.argmax(lengths), 1]) if len(holes) else 0.0
+    if has_weights(filtration.weights):
+        first = float(filtration.radii[0].min())
+        late = max(1.02 * filled, chosen + (chosen - first) / 2)
+        return [first + 2 * (chosen - first) / 3, chosen, late]
     return [chosen / 3, chosen, max(1.02 * filled, 2 * chosen)]

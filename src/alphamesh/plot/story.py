@@ -12,7 +12,7 @@ from alphamesh.plot.cells import cell_coloring, plot_restricted_voronoi, plot_vo
 from alphamesh.plot.complexes import plot_complex, plot_delaunay
 from alphamesh.plot.drawing import plot_cloud
 from alphamesh.plot.outlines import plot_hull
-from alphamesh.plot.overview import cloud_text, delaunay_text
+from alphamesh.plot.overview import cloud_text, delaunay_title
 from alphamesh.plot.panels import (
     add_legend,
     add_title,
@@ -73,7 +73,7 @@ def plot_story(
     cells = restricted_voronoi(filtration, radius)
     shape = AlphaShape(filtration, radius)
     figure, axes = panels(filtration.points, 6, int(columns))
-    _whole_cloud(filtration, radius, axes)
+    _whole_cloud(filtration, cells.largest_radius, axes)
     plot_restricted_voronoi(cells, axes[4], coloring=_coloring(filtration))
     free = int(np.count_nonzero(cells.is_free))
     text = counted(len(cells.edges), "pair of cells touches", "pairs of cells touch")
@@ -103,12 +103,12 @@ def _whole_cloud(filtration: Filtration, reach: float, axes: list[Axes]) -> None
     plot_voronoi(voronoi, axes[2], coloring=_coloring(filtration), reach=reach)
     add_title(
         axes[2],
-        "Voronoi cells",
+        "Voronoi cells" if filtration.weights is None else "Power cells",
         f"{counted(len(filtration.simplices[0]), 'cell')}, "
         f"{counted(len(voronoi.ridge_points), 'border')}",
     )
     plot_delaunay(filtration, axes[3])
-    add_title(axes[3], "Delaunay triangulation", delaunay_text(filtration))
+    add_title(axes[3], *delaunay_title(filtration))
 
 
 def _coloring(filtration: Filtration) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
