@@ -24,11 +24,21 @@ nb::tuple union2_py(const Ids& edges, const Ids& edge_triangles, const Ids& tria
                     double power, int threads, const nb::object& progress) {
   const auto vertex = nb::cast<Flags>(has[0]), edge = nb::cast<Flags>(has[1]),
              triangle = nb::cast<Flags>(has[2]);
-  const DiscsView view{points.data(),         data_or_null(weights), points.shape(0),
-                       power,                 vertex.data(),         edges.data(),
-                       edge.data(),           edge_triangles.data(), edges.shape(0),
-                       triangles.data(),      triangle_edges.data(), triangle.data(),
-                       hole.data(),           triangles.shape(0),    hole_count};
+  const DiscsView view{points.data(),
+                       data_or_null(weights),
+                       points.shape(0),
+                       power,
+                       vertex.data(),
+                       edges.data(),
+                       edge.data(),
+                       edge_triangles.data(),
+                       edges.shape(0),
+                       triangles.data(),
+                       triangle_edges.data(),
+                       triangle.data(),
+                       hole.data(),
+                       triangles.shape(0),
+                       hole_count};
   Job job(useful_threads(threads, view.n));
   UnionOfDiscs2 out;
   run_watched(job, view.triangle_count, progress, [&] { out = union2(view, job); });

@@ -54,6 +54,7 @@ class Union2 {
   const DiscsView& view_;
   Job& job_;
   UnionOfDiscs2 out_;
+  CarefulSum total_;
   Buffer<double> square_, radius_;  // of each disc
   Buffer<double> turn_;             // how much of its circle is on the boundary
   Buffer<bool> joined_, open_;      // discs with edges; those that have some of the boundary
@@ -134,7 +135,7 @@ void Union2::add_edges() {
           turn_[v] -= record.half[k];
           out_.areas[v] += record.share[k];
         }
-        out_.area += record.area;
+        total_ += record.area;
       });
 }
 
@@ -180,7 +181,8 @@ TriangleRecord Union2::triangle(std::size_t t) const {
       off_ij += lean_ik - lean_ij * (across / sq_ij);
       off_ik += lean_ij - lean_ik * (across / sq_ik);
     }
-    out.share[i] = 0.125 * ((sq_ij + lean_ij) * (off_ij / size) + (sq_ik + lean_ik) * (off_ik / size));
+    out.share[i] =
+        0.125 * ((sq_ij + lean_ij) * (off_ij / size) + (sq_ik + lean_ik) * (off_ik / size));
   }
   if (!inside) measure_hole(t, out);
   return out;
@@ -202,7 +204,7 @@ void Union2::add_triangles() {
           out_.areas[at(record.v[k])] += record.share[k];
           turn_[at(record.v[k])] -= record.angle[k];
         }
-        out_.area += record.area;
+        total_ += record.area;
       });
 }
 
@@ -215,7 +217,7 @@ void Union2::add_vertices() {
     const double sector = 0.5 * square_[v] * turn;
     out_.perimeters[v] = radius_[v] * turn;
     out_.areas[v] = std::max(0.0, out_.areas[v] + sector);
-    out_.area += sector;
+    total_ += sector;
   }
   for (double& area : out_.hole_areas) area = std::max(0.0, area);
   for (double& perimeter : out_.hole_perimeters) perimeter = std::max(0.0, perimeter);
@@ -225,6 +227,7 @@ UnionOfDiscs2 Union2::run() {
   add_edges();
   add_triangles();
   add_vertices();
+  out_.area = total_.value();
   return std::move(out_);
 }
 

@@ -28,9 +28,9 @@ struct DiscsView {
 };
 
 struct UnionOfDiscs2 {
-  Buffer<double> areas;           // (n): of the disc in its power cell
-  Buffer<double> perimeters;      // (n): of its arcs on the boundary
-  Buffer<double> hole_areas;      // (holes)
+  Buffer<double> areas;            // (n): of the disc in its power cell
+  Buffer<double> perimeters;       // (n): of its arcs on the boundary
+  Buffer<double> hole_areas;       // (holes)
   Buffer<double> hole_perimeters;  // (holes)
   double area = 0.0;
 };

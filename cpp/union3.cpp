@@ -86,6 +86,7 @@ class Union3 {
   const BallsView& view_;
   Job& job_;
   UnionOfBalls3 out_;
+  CarefulSum total_;
   Buffer<double> square_, radius_;  // of each ball
   Buffer<Id> euler_;                // Euler characteristic of each sphere's part of the boundary
   Buffer<std::uint8_t> state_;      // of each edge: kSpanned, kOpen
@@ -146,17 +147,16 @@ Flap Union3::flap(const Id* corner) const {
     size = norm(normal_accurate(p[0], p[1], p[2]));
   }
   out.area = 0.5 * size;
-  double away[3], along[3];  // of the centre from each edge; of the third corner along it
+  double away[3];  // of the centre from each edge
   int least = 0;
   for (int k = 0; k < 3; ++k) {
     const int a = kOther[k][0], b = kOther[k][1];
     const Lens& side = out.lens[k];
     const Vector u = p[k] - p[a], v = p[k] - p[b], w = p[b] - p[a];
-    along[k] = dot(u, w) / side.length;
     double top = dot(u, v);
     if (view_.weights != nullptr) {
-      const double wa = weight(corner[a]);
-      top += (wa - weight(corner[k])) - along[k] / side.length * (wa - weight(corner[b]));
+      const double wa = weight(corner[a]), along = dot(u, w) / dot(w, w);
+      top += (wa - weight(corner[k])) - along * (wa - weight(corner[b]));
     }
     away[k] = 0.5 * side.length * (top / size);
     if (side.circle < out.lens[least].circle) least = k;
@@ -178,11 +178,10 @@ Flap Union3::flap(const Id* corner) const {
     const int e = out.lens[a].circle <= out.lens[b].circle ? a : b;
     const Lens& side = out.lens[e];
     // Along edge e from corner k on: where the third corner is, how high it is above.
-    const bool first = kOther[e][0] == k;
-    const double x = first ? along[e] : side.length - along[e], y = size / side.length;
-    const double h = side.from[first ? 0 : 1];
-    out.turn[k] =
-        std::atan2(radius_[at(corner[k])] * y * s[e], side.circle * x - h * y * c[e]);
+    const int other = e == a ? b : a;
+    const double x = dot(p[e] - p[k], p[other] - p[k]) / side.length, y = size / side.length;
+    const double h = side.from[kOther[e][0] == k ? 0 : 1];
+    out.turn[k] = std::atan2(radius_[at(corner[k])] * y * s[e], side.circle * x - h * y * c[e]);
     const double ha = out.lens[b].from[kOther[b][0] == k ? 0 : 1];  // towards corner a
     const double hb = out.lens[a].from[kOther[a][0] == k ? 0 : 1];
     out.share[k] = 0.5 * (ha * away[b] + hb * away[a]);
@@ -251,7 +250,7 @@ void Union3::add_triangles() {
           out_.surface_areas[v] -= radius_[v] * record.turn[k];
           out_.volumes[v] += record.share[k];
         }
-        out_.volume += record.volume;
+        total_ += record.volume;
       });
 }
 
@@ -268,8 +267,7 @@ Id Union3::cell_edge(std::size_t t, int k) const {
 // its edges' and the faces' centres, as high as the tetrahedron's centre. Of slivers the
 // centre is known poorly along their normal; that is small as long as all faces see the same
 // centre, found from the largest face, and none beyond the point where its spheres meet.
-void Union3::share_cell(const Id* corner, const Vector* normal, double det,
-                        CellRecord& out) const {
+void Union3::share_cell(const Id* corner, const Vector* normal, double det, CellRecord& out) const {
   int best = 0;
   double size_sq[4];
   for (int k = 0; k < 4; ++k) {
@@ -287,7 +285,16 @@ void Union3::share_cell(const Id* corner, const Vector* normal, double det,
       reach[j][i] = half - lean;
     }
   }
-  const int a = kFace[best][0], b = kFace[best][1], c = kFace[best][2];
+  // Seen from the corner nearest to the one across: the two may almost coincide.
+  int turn = 0;
+  double nearest = HUGE_VAL;
+  for (int m = 0; m < 3; ++m) {
+    const Vector u = p[best] - p[kFace[best][m]];
+    if (dot(u, u) >= nearest) continue;
+    nearest = dot(u, u);
+    turn = m;
+  }
+  const int a = kFace[best][turn], b = kFace[best][(turn + 1) % 3], c = kFace[best][(turn + 2) % 3];
   const Vector u = p[b] - p[a], v = p[c] - p[a], q = p[best] - p[a];
   const Vector n = normal[best];
   const Vector turned = cross(u, v);
@@ -414,7 +421,7 @@ void Union3::add_tetrahedra() {
         for (int k = 0; k < 6; ++k) {
           if (record.e[k] >= 0) turn_[at(record.e[k])] -= record.angle[k];
         }
-        out_.volume += record.volume;
+        total_ += record.volume;
       });
 }
 
@@ -430,7 +437,7 @@ void Union3::add_edges() {
       out_.volumes[at(end[k])] += lens.from[k] * disc;
       out_.surface_areas[at(end[k])] += lens.from[k] * turn;
     }
-    out_.volume += lens.length * disc;
+    total_ += lens.length * disc;
   }
 }
 
@@ -456,7 +463,7 @@ void Union3::add_vertices() {
     }
     const double cone = radius_[v] * area / 3.0;
     out_.volumes[v] = std::max(0.0, out_.volumes[v] + cone);
-    out_.volume += cone;
+    total_ += cone;
   }
 }
 
@@ -490,6 +497,7 @@ UnionOfBalls3 Union3::run() {
   add_edges();
   add_vertices();
   if (view_.void_count > 0) finish_voids();
+  out_.volume = total_.value();
   return std::move(out_);
 }
 

@@ -1,12 +1,28 @@
 // Sums over simplices in parallel, the same to the last bit for any number of threads.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "parallel.hpp"
 
 namespace alphamesh {
+
+// A sum that loses no digits to its many terms (Neumaier 1974).
+class CarefulSum {
+ public:
+  void operator+=(double term) {
+    const double next = sum_ + term;
+    rest_ += std::fabs(sum_) >= std::fabs(term) ? (sum_ - next) + term : (term - next) + sum_;
+    sum_ = next;
+  }
+  double value() const { return sum_ + rest_; }
+
+ private:
+  double sum_ = 0.0, rest_ = 0.0;
+};
 
 // For each number below `count` in turn, make(number, records) appends what it has to add;
 // many at once, in parallel. add(record) then takes the records one after another.

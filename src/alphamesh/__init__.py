@@ -57,6 +57,7 @@ if TYPE_CHECKING:
     from alphamesh.solid import Selection3D
     from alphamesh.surface import Surface, boundary_surface
     from alphamesh.table import PointTable
+    from alphamesh.unions import UnionOfBalls, UnionOfDiscs, union_of_balls
     from alphamesh.voronoi import ClippedVoronoi, Voronoi, voronoi
 
     __version__: str
@@ -99,6 +100,8 @@ __all__ = [
     "Shells",
     "SimplexKind",
     "Surface",
+    "UnionOfBalls",
+    "UnionOfDiscs",
     "Voids",
     "Voronoi",
     "__version__",
@@ -124,6 +127,7 @@ __all__ = [
     "restricted_voronoi",
     "sample_mask",
     "sample_solid",
+    "union_of_balls",
     "voronoi",
     "write_geo",
     "write_mesh",
@@ -165,6 +169,7 @@ _HOMES = {
     "shells": ("Shells",),
     "surface": ("Surface", "boundary_surface"),
     "table": ("PointTable",),
+    "unions": ("UnionOfBalls", "UnionOfDiscs", "union_of_balls"),
     "voronoi": ("ClippedVoronoi", "Voronoi", "voronoi"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

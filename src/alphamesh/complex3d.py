@@ -11,6 +11,7 @@ from alphamesh.curves3d import MeasureCurves3D, measure_curves_in_space
 from alphamesh.errors import DimensionError
 from alphamesh.filtration3d import filtration_in_space
 from alphamesh.shape3d import AlphaShape3D
+from alphamesh.unions import UnionOfBalls, union_of_balls
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -99,6 +100,21 @@ class AlphaComplex3D(AlphaComplex):
         if radius is None:
             radius = self.choose_radius().radius
         return AlphaShape3D(self._filtration, radius)
+
+    def union(  # type: ignore[override]
+        self,
+        radius: float | None = None,
+        *,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> UnionOfBalls:
+        """Measure the union of the balls of `radius`: volume, surface, voids, all by balls.
+
+        Parameters and errors are those of :meth:`AlphaComplex.union`.
+        """
+        if radius is None:
+            radius = self.choose_radius().radius
+        return union_of_balls(self._filtration, radius, threads=threads, progress=progress)
 
     def critical_radii(self) -> FloatArray:
         """Return every radius at which the complex changes, ascending, without repeats.

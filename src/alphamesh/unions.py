@@ -30,6 +30,10 @@ _LARGEST, _LEAST = {2: 2.0**249, 3: 2.0**100}, {2: 2.0**-188, 3: 2.0**-100}
 _SCALED_TO = {2: 249, 3: 164}
 _LARGEST_RADIUS = 2.0**250
 
+# Squared values that differ by less, as a share of the largest square, may be in the wrong
+# order: several times what rounding can do to them.
+_CLOSE = 2e-12
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class _Union(Record):
@@ -57,7 +61,9 @@ class _Union(Record):
         """
         if self.weights is None:
             return read_only(np.full(len(self.points), max(0.0, self.radius)))
-        exponent = math.frexp(max(abs(self.radius), _root(np.abs(self.weights).max(initial=0))))[1]
+        exponent = math.frexp(
+            max(abs(self.radius), _root(np.abs(self.weights).max(initial=0)))
+        )[1]
         power = _power(math.ldexp(self.radius, -exponent))
         squares = np.ldexp(self.weights, -2 * exponent) + power
         return read_only(np.ldexp(np.sqrt(np.maximum(squares, 0.0)), exponent))
@@ -371,7 +377,31 @@ def _present(filtration: AnyFiltration, radius: float) -> tuple[Any, ...]:
     """Return which rows and which simplices of each higher dimension there are at `radius`."""
     vertex = np.zeros(len(filtration.points), dtype=np.bool_)
     vertex[filtration.simplices[0][:, 0]] = filtration.radii[0] <= radius
-    return vertex, *(radii <= radius for radii in filtration.radii[1:])
+    last = _settled(filtration, radius)
+    return vertex, *(radii <= last for radii in filtration.radii[1:])
+
+
+def _settled(filtration: AnyFiltration, radius: float) -> float:
+    """Return the value from `radius` on after which none follows too closely.
+
+    Values carry rounding errors. Of two that hardly differ, the larger may truly be the
+    smaller one, and the complex at a radius in between not that of any union; the one
+    that has both differs from the true one by simplices that hardly matter.
+    """
+    weights = _weights(filtration)
+    heaviest = 0.0 if weights is None else float(np.abs(weights).max(initial=0.0))
+    last, found = radius, True
+    while found:
+        found = False
+        scale = max(abs(last), _root(heaviest))
+        # Over the scale: no square leaves the range of float64.
+        power = _power(last / scale) + _CLOSE if scale else 0.0
+        limit = scale * math.copysign(_root(abs(power)), power)
+        for radii in filtration.radii[1:]:
+            reached = float(radii.max(initial=last, where=radii <= limit))
+            if reached > last:
+                last, found = reached, True
+    return last
 
 
 def _enclosed(cofaces: IntArray, cells: BoolArray, facets: BoolArray) -> tuple[IntArray, int]:
