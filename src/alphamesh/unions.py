@@ -292,8 +292,8 @@ def union_of_balls(
 def _of_discs(
     filtration: Filtration, radius: float, threads: int | None, progress: Progress | None
 ) -> UnionOfDiscs:
-    points, weights, power, exponent = _scaled(filtration, radius)
     vertex, edge, triangle = _present(filtration, radius)
+    points, weights, power, exponent = _scaled(filtration, radius, alone=not edge.any())
     labels, count = _enclosed(filtration.edge_triangles, triangle, edge)
     area, areas, perimeters, hole_areas, hole_perimeters = union2(
         points,
@@ -325,8 +325,8 @@ def _of_discs(
 def _of_balls(
     filtration: Filtration3D, radius: float, threads: int | None, progress: Progress | None
 ) -> UnionOfBalls:
-    points, weights, power, exponent = _scaled(filtration, radius)
     vertex, edge, triangle, tetrahedron = _present(filtration, radius)
+    points, weights, power, exponent = _scaled(filtration, radius, alone=not edge.any())
     labels, count = _enclosed(filtration.triangle_tetrahedra, tetrahedron, triangle)
     volume, volumes, areas, void_volumes, void_areas = union3(
         points,
@@ -430,9 +430,12 @@ def _power(radius: float) -> float:
 
 
 def _scaled(
-    filtration: AnyFiltration, radius: float
+    filtration: AnyFiltration, radius: float, *, alone: bool
 ) -> tuple[FloatArray, FloatArray | None, float, int]:
-    """Return points, weights and squared radius over powers of two, and the exponent."""
+    """Return points, weights and squared radius over powers of two, and the exponent.
+
+    Where all balls are `alone`, only their own size counts, and no point is looked at.
+    """
     points, weights = filtration.points, _weights(filtration)
     dimension = points.shape[1]
     sizes = np.abs(points)
@@ -440,7 +443,9 @@ def _scaled(
     least = float(sizes.min(initial=np.inf, where=sizes > 0))
     span = max(abs(radius), 0.0 if weights is None else _root(np.abs(weights).max(initial=0.0)))
     exponent = 0
-    if largest >= _LARGEST[dimension] or least < _LEAST[dimension]:
+    if alone:
+        exponent = math.frexp(span)[1]
+    elif largest >= _LARGEST[dimension] or least < _LEAST[dimension]:
         exponent = int(np.frexp(largest)[1]) - _SCALED_TO[dimension]
     elif span >= _LARGEST_RADIUS:
         exponent = int(np.frexp(span)[1]) - 250
@@ -450,7 +455,7 @@ def _scaled(
             "scale the points up"
         )
     if exponent:
-        points = np.ldexp(points, -exponent)
+        points = points if alone else np.ldexp(points, -exponent)
         if weights is not None:
             weights = np.ldexp(weights, -2 * exponent)
     return points, weights, _power(math.ldexp(radius, -exponent)), exponent
