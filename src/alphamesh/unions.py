@@ -50,7 +50,7 @@ class _Union(Record):
     @property
     def weights(self) -> FloatArray | None:
         """What each squared radius is more than that of `radius`, ``(n,)`` float64, or None."""
-        return _weights(self.filtration)
+        return self.filtration.weights
 
     @cached_property
     def ball_radii(self) -> FloatArray:
@@ -355,15 +355,10 @@ def _of_balls(
     )
 
 
-def _weights(filtration: AnyFiltration) -> FloatArray | None:
-    weights: FloatArray | None = getattr(filtration, "weights", None)
-    return weights
-
-
 def _checked(radius: object, filtration: AnyFiltration) -> float:
     """Return `radius` as a float, or say what is wrong with it."""
     if isinstance(radius, Real) and math.isfinite(value := float(radius)):
-        if value >= 0 or _weights(filtration) is not None:
+        if value >= 0 or filtration.weights is not None:
             return value
         raise ParameterError(
             f"radius must be 0 or more where the points have no weights; got {radius!r}"
@@ -388,7 +383,7 @@ def _settled(filtration: AnyFiltration, radius: float) -> float:
     smaller one, and the complex at a radius in between not that of any union; the one
     that has both differs from the true one by simplices that hardly matter.
     """
-    weights = _weights(filtration)
+    weights = filtration.weights
     heaviest = 0.0 if weights is None else float(np.abs(weights).max(initial=0.0))
     last, found = radius, True
     while found:
@@ -436,7 +431,7 @@ def _scaled(
 
     Where all balls are `alone`, only their own size counts, and no point is looked at.
     """
-    points, weights = filtration.points, _weights(filtration)
+    points, weights = filtration.points, filtration.weights
     dimension = points.shape[1]
     sizes = np.abs(points)
     largest = float(sizes.max(initial=0.0))
