@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "predicates3.hpp"
+#include "balls3.hpp"
 #include "waves.hpp"
 
 // The union of balls is cut into pieces by the alpha complex (Edelsbrunner 1995): its
@@ -22,30 +22,11 @@ namespace {
 using Id = std::int32_t;
 using Vector = Vector3<double>;
 constexpr double kPi = 3.14159265358979323846;
-// Below this share of their greatest possible value, normals and volumes are computed again
-// with twice the digits.
-constexpr double kThin = 1.0 / 128.0;
 
-// The corners of an edge or a face, and the ends of the edge opposite to a corner.
-constexpr int kFace[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
-constexpr int kOther[3][2] = {{1, 2}, {0, 2}, {0, 1}};
+// The ends of each edge of a tetrahedron.
 constexpr int kEdge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 std::size_t at(Id i) { return static_cast<std::size_t>(i); }
-
-// Two balls: the distances of their radical plane from the two centres, and the radius of
-// the circle in which the spheres meet.
-struct Lens {
-  double length, from[2], circle;
-};
-
-// Three balls: half angles of the arcs that each cuts from the circle of the other two,
-// angles at which the other two cross on its sphere, and how much of the triangle belongs
-// to it; the height above the triangle at which the spheres meet, and the triangle's area.
-struct Flap {
-  Lens lens[3];
-  double half[3], turn[3], share[3], height, area;
-};
 
 struct FlapRecord {
   Id v[3], e[3];
@@ -64,13 +45,6 @@ class Union3 {
   UnionOfBalls3 run();
 
  private:
-  Point3 point(Id v) const {
-    const double* p = view_.points + 3 * at(v);
-    return {p[0], p[1], p[2]};
-  }
-  double weight(Id v) const { return view_.weights != nullptr ? view_.weights[v] : 0.0; }
-  Lens lens(Id i, Id j) const;
-  Flap flap(const Id* corner) const;
   int open_sides(std::size_t f) const;
   void count();
   void add_triangles();
@@ -78,7 +52,6 @@ class Union3 {
   void add_edges();
   void add_vertices();
   CellRecord cell(std::size_t t) const;
-  void share_cell(const Id* corner, const Vector* normal, double det, CellRecord& out) const;
   void measure_void(std::size_t t, CellRecord& out) const;
   void finish_voids();
   Id cell_edge(std::size_t t, int k) const;
@@ -87,19 +60,18 @@ class Union3 {
   Job& job_;
   UnionOfBalls3 out_;
   CarefulSum total_;
-  Buffer<double> square_, radius_;  // of each ball
-  Buffer<Id> euler_;                // Euler characteristic of each sphere's part of the boundary
-  Buffer<std::uint8_t> state_;      // of each edge: kSpanned, kOpen
-  Buffer<double> turn_;             // of each edge: how much of its circle is on the boundary
-  Buffer<Id> edge_hollow_;          // of each edge outside of the complex: its void
+  Balls3 balls_;
+  Buffer<Id> euler_;            // Euler characteristic of each sphere's part of the boundary
+  Buffer<std::uint8_t> state_;  // of each edge: kSpanned, kOpen
+  Buffer<double> turn_;         // of each edge: how much of its circle is on the boundary
+  Buffer<Id> edge_hollow_;      // of each edge outside of the complex: its void
   static constexpr std::uint8_t kSpanned = 1, kOpen = 2;
 };
 
 Union3::Union3(const BallsView& view, Job& job)
     : view_(view),
       job_(job),
-      square_(view.n),
-      radius_(view.n),
+      balls_(view.points, view.weights, view.n, view.power),
       euler_(view.n),
       state_(view.edge_count),
       turn_(view.edge_count),
@@ -116,77 +88,6 @@ Union3::Union3(const BallsView& view, Job& job)
   std::fill(state_.begin(), state_.end(), std::uint8_t{0});
   std::fill(turn_.begin(), turn_.end(), 2.0 * kPi);
   std::fill(edge_hollow_.begin(), edge_hollow_.end(), -1);
-  for (std::size_t v = 0; v < view.n; ++v) {
-    square_[v] = std::max(0.0, weight(static_cast<Id>(v)) + view.power);
-    radius_[v] = std::sqrt(square_[v]);
-  }
-}
-
-Lens Union3::lens(Id i, Id j) const {
-  Lens out{};
-  out.length = norm(point(j) - point(i));
-  const double lean = (weight(i) - weight(j)) / out.length;
-  out.from[0] = 0.5 * (out.length + lean);
-  out.from[1] = 0.5 * (out.length - lean);
-  // From the smaller ball, less cancels.
-  const int k = square_[at(i)] <= square_[at(j)] ? 0 : 1;
-  const double r = radius_[at(k == 0 ? i : j)], h = std::fabs(out.from[k]);
-  out.circle = std::sqrt(std::max(0.0, (r - h) * (r + h)));
-  return out;
-}
-
-// Angles come from the cosine and the sine of one half angle, that on the smallest circle:
-// where two spheres hardly touch, errors of theirs cancel only if they are the same.
-Flap Union3::flap(const Id* corner) const {
-  Flap out{};
-  const Point3 p[3] = {point(corner[0]), point(corner[1]), point(corner[2])};
-  Vector normal = cross(p[1] - p[0], p[2] - p[0]);
-  for (int k = 0; k < 3; ++k) out.lens[k] = lens(corner[kOther[k][0]], corner[kOther[k][1]]);
-  double size = norm(normal);
-  if (!(size > kThin * out.lens[2].length * out.lens[1].length)) {
-    size = norm(normal_accurate(p[0], p[1], p[2]));
-  }
-  out.area = 0.5 * size;
-  double away[3];  // of the centre from each edge
-  int least = 0;
-  for (int k = 0; k < 3; ++k) {
-    const int a = kOther[k][0], b = kOther[k][1];
-    const Lens& side = out.lens[k];
-    const Vector u = p[k] - p[a], v = p[k] - p[b], w = p[b] - p[a];
-    double top = dot(u, v);
-    if (view_.weights != nullptr) {
-      const double wa = weight(corner[a]), along = dot(u, w) / dot(w, w);
-      top += (wa - weight(corner[k])) - along * (wa - weight(corner[b]));
-    }
-    away[k] = 0.5 * side.length * (top / size);
-    if (side.circle < out.lens[least].circle) least = k;
-  }
-  const double smallest = out.lens[least].circle;
-  const double cosine =
-      smallest > 0.0 ? std::max(-1.0, std::min(1.0, away[least] / smallest)) : 1.0;
-  const double sine = std::sqrt((1.0 - std::fabs(cosine)) * (1.0 + std::fabs(cosine)));
-  out.height = smallest * sine;
-  double c[3], s[3];  // cosines and sines of the half angles, but for a factor
-  for (int k = 0; k < 3; ++k) {
-    const double circle = out.lens[k].circle;
-    c[k] = k == least || circle == 0.0 ? (k == least ? cosine : 1.0) : away[k] / circle;
-    s[k] = k == least || circle == 0.0 ? (k == least ? sine : 0.0) : out.height / circle;
-    out.half[k] = std::atan2(s[k], c[k]);
-  }
-  for (int k = 0; k < 3; ++k) {
-    const int a = kOther[k][0], b = kOther[k][1];  // corners; as edges, those at corner k
-    const int e = out.lens[a].circle <= out.lens[b].circle ? a : b;
-    const Lens& side = out.lens[e];
-    // Along edge e from corner k on: where the third corner is, how high it is above.
-    const int other = e == a ? b : a;
-    const double x = dot(p[e] - p[k], p[other] - p[k]) / side.length, y = size / side.length;
-    const double h = side.from[kOther[e][0] == k ? 0 : 1];
-    out.turn[k] = std::atan2(radius_[at(corner[k])] * y * s[e], side.circle * x - h * y * c[e]);
-    const double ha = out.lens[b].from[kOther[b][0] == k ? 0 : 1];  // towards corner a
-    const double hb = out.lens[a].from[kOther[a][0] == k ? 0 : 1];
-    out.share[k] = 0.5 * (ha * away[b] + hb * away[a]);
-  }
-  return out;
 }
 
 // Sides of a triangle without a tetrahedron of the complex.
@@ -231,7 +132,7 @@ void Union3::add_triangles() {
         if (!view_.has_triangle[f]) return;
         const int open = open_sides(f);
         if (open == 0) return;
-        const Flap flap = this->flap(view_.triangles + 3 * f);
+        const Flap flap = balls_.flap(view_.triangles + 3 * f);
         FlapRecord record{};
         for (std::size_t k = 0; k < 3; ++k) {
           record.v[k] = view_.triangles[3 * f + k];
@@ -247,7 +148,7 @@ void Union3::add_triangles() {
         for (int k = 0; k < 3; ++k) {
           const std::size_t v = at(record.v[k]);
           turn_[at(record.e[k])] -= record.half[k];
-          out_.surface_areas[v] -= radius_[v] * record.turn[k];
+          out_.surface_areas[v] -= balls_.radius(record.v[k]) * record.turn[k];
           out_.volumes[v] += record.share[k];
         }
         total_ += record.volume;
@@ -263,101 +164,36 @@ Id Union3::cell_edge(std::size_t t, int k) const {
   return view_.triangle_edges[3 * f + at(third > away ? third - 1 : third)];
 }
 
-// What each corner has of a tetrahedron: pyramids from the corner over the kites between it,
-// its edges' and the faces' centres, as high as the tetrahedron's centre. Of slivers the
-// centre is known poorly along their normal; that is small as long as all faces see the same
-// centre, found from the largest face, and none beyond the point where its spheres meet.
-void Union3::share_cell(const Id* corner, const Vector* normal, double det, CellRecord& out) const {
-  int best = 0;
-  double size_sq[4];
-  for (int k = 0; k < 4; ++k) {
-    size_sq[k] = dot(normal[k], normal[k]);
-    if (size_sq[k] > size_sq[best]) best = k;
-  }
-  const Point3 p[4] = {point(corner[0]), point(corner[1]), point(corner[2]), point(corner[3])};
-  double reach[4][4];  // g[i][j]: from i, how far the radical plane is along j - i, times length
-  for (int i = 0; i < 4; ++i) {
-    for (int j = i + 1; j < 4; ++j) {
-      const Vector u = p[j] - p[i];
-      const double half = 0.5 * dot(u, u);
-      const double lean = 0.5 * (weight(corner[i]) - weight(corner[j]));
-      reach[i][j] = half + lean;
-      reach[j][i] = half - lean;
-    }
-  }
-  // Seen from the corner nearest to the one across: the two may almost coincide.
-  int turn = 0;
-  double nearest = HUGE_VAL;
-  for (int m = 0; m < 3; ++m) {
-    const Vector u = p[best] - p[kFace[best][m]];
-    if (dot(u, u) >= nearest) continue;
-    nearest = dot(u, u);
-    turn = m;
-  }
-  const int a = kFace[best][turn], b = kFace[best][(turn + 1) % 3], c = kFace[best][(turn + 2) % 3];
-  const Vector u = p[b] - p[a], v = p[c] - p[a], q = p[best] - p[a];
-  const Vector n = normal[best];
-  const Vector turned = cross(u, v);
-  const double side = dot(turned, n) < 0.0 ? -1.0 : 1.0;
-  const Vector vn = cross(v, n), nu = cross(n, u);
-  const double x = side * reach[a][b] / size_sq[best], y = side * reach[a][c] / size_sq[best];
-  const Vector foot{x * vn.x + y * nu.x, x * vn.y + y * nu.y, x * vn.z + y * nu.z};
-  const double most =
-      std::sqrt(std::max(0.0, square_[at(corner[a])] - dot(foot, foot)) / size_sq[best]);
-  double rise = (reach[a][best] - dot(foot, q)) / det;  // over the length of the normal
-  rise = std::max(-most, std::min(most, rise));
-  const Vector centre{foot.x + rise * n.x, foot.y + rise * n.y, foot.z + rise * n.z};
-  for (int f = 0; f < 4; ++f) {
-    const int first = kFace[f][0];
-    const Vector shift = p[first] - p[a];
-    const Vector here{centre.x - shift.x, centre.y - shift.y, centre.z - shift.z};
-    const double height = dot(here, normal[f]) / size_sq[f];
-    for (int m = 0; m < 3; ++m) {
-      const int i = kFace[f][m], j = kFace[f][kOther[m][0]], k = kFace[f][kOther[m][1]];
-      const Vector ij = p[j] - p[i], ik = p[k] - p[i], jk = p[k] - p[j];
-      // The distance of the face's centre from each edge, times the normal over the edge.
-      double off_ij = 0.5 * dot(ik, jk), off_ik = -0.5 * dot(ij, jk);
-      if (view_.weights != nullptr) {
-        const double across = dot(ij, ik), lean_ij = weight(corner[i]) - weight(corner[j]),
-                     lean_ik = weight(corner[i]) - weight(corner[k]);
-        off_ij += 0.5 * (lean_ik - lean_ij * (across / dot(ij, ij)));
-        off_ik += 0.5 * (lean_ij - lean_ik * (across / dot(ik, ik)));
-      }
-      out.share[i] += height * (reach[i][j] * off_ij + reach[i][k] * off_ik) / 6.0;
-    }
-  }
-}
-
 // What a tetrahedron outside of the complex adds to its void: itself, less what the balls
 // have of it.
 void Union3::measure_void(std::size_t t, CellRecord& out) const {
   const Id* corner = view_.tetrahedra + 4 * t;
   for (int k = 0; k < 4; ++k) {
     if (!view_.has_vertex[corner[k]]) continue;
-    const double s = square_[at(corner[k])], r = radius_[at(corner[k])];
+    const double s = balls_.square(corner[k]), r = balls_.radius(corner[k]);
     out.area += 2.0 * kPi * s;
     out.volume -= 2.0 * kPi * s * r / 3.0;
   }
   auto edge = [&](const Lens& lens, Id i, Id j, double angle) {
-    const double si = square_[at(i)], sj = square_[at(j)];
-    const double ri = radius_[at(i)], rj = radius_[at(j)];
+    const double si = balls_.square(i), sj = balls_.square(j);
+    const double ri = balls_.radius(i), rj = balls_.radius(j);
     out.area += (lens.from[0] * ri + lens.from[1] * rj) * angle;
     out.volume -= (lens.from[0] * si + lens.from[1] * sj) * angle / 3.0 +
                   lens.length * lens.circle * lens.circle * angle / 6.0;
   };
   for (int k = 0; k < 6; ++k) {
     const Id i = corner[kEdge[k][0]], j = corner[kEdge[k][1]];
-    if (view_.has_edge[out.e[k]]) edge(lens(i, j), i, j, out.angle[k]);
+    if (view_.has_edge[out.e[k]]) edge(balls_.lens(i, j), i, j, out.angle[k]);
   }
   for (int k = 0; k < 4; ++k) {
     const Id f = view_.tetrahedron_triangles[4 * t + at(k)];
     if (!view_.has_triangle[f]) continue;
     const Id* face = view_.triangles + 3 * at(f);
-    const Flap flap = this->flap(face);
+    const Flap flap = balls_.flap(face);
     out.volume -= flap.area * flap.height / 3.0;
     for (int m = 0; m < 3; ++m) {
-      const double s = square_[at(face[m])], r = radius_[at(face[m])];
-      edge(flap.lens[m], face[kOther[m][0]], face[kOther[m][1]], -flap.half[m]);
+      const double s = balls_.square(face[m]), r = balls_.radius(face[m]);
+      edge(flap.lens[m], face[kEndsOf[m][0]], face[kEndsOf[m][1]], -flap.half[m]);
       out.area -= s * flap.turn[m];
       out.volume += s * r * flap.turn[m] / 3.0;
     }
@@ -367,7 +203,8 @@ void Union3::measure_void(std::size_t t, CellRecord& out) const {
 CellRecord Union3::cell(std::size_t t) const {
   const Id* corner = view_.tetrahedra + 4 * t;
   CellRecord out{};
-  const Point3 p[4] = {point(corner[0]), point(corner[1]), point(corner[2]), point(corner[3])};
+  const Point3 p[4] = {balls_.point(corner[0]), balls_.point(corner[1]), balls_.point(corner[2]),
+                       balls_.point(corner[3])};
   Vector normal[4];
   const Vector u = p[1] - p[0], v = p[2] - p[0], w = p[3] - p[0];
   const double sizes = norm(u) * norm(v) * norm(w);
@@ -375,7 +212,7 @@ CellRecord Union3::cell(std::size_t t) const {
   const bool thin = !(std::fabs(det) > kThin * sizes);
   if (thin) det = volume_accurate(p[0], p[1], p[2], p[3]);
   for (int k = 0; k < 4; ++k) {  // inward
-    const Point3 a = p[kFace[k][0]], b = p[kFace[k][1]], c = p[kFace[k][2]];
+    const Point3 a = p[kFaceOf[k][0]], b = p[kFaceOf[k][1]], c = p[kFaceOf[k][2]];
     normal[k] = thin ? normal_accurate(a, b, c) : cross(b - a, c - a);
     if ((k % 2 == 0) == (det > 0.0)) normal[k] = {-normal[k].x, -normal[k].y, -normal[k].z};
   }
@@ -397,7 +234,7 @@ CellRecord Union3::cell(std::size_t t) const {
     out.angle[k] = std::atan2(size * norm(p[b] - p[a]), -dot(normal[c], normal[d]));
   }
   if (inside) {
-    share_cell(corner, normal, size, out);
+    balls_.share_cell(corner, normal, size, out.share);
   } else {
     measure_void(t, out);
   }
@@ -430,7 +267,7 @@ void Union3::add_edges() {
     if ((e & 0xffff) == 0) job_.poll();
     if (!view_.has_edge[e] || state_[e] == kSpanned) continue;
     const Id* end = view_.edges + 2 * e;
-    const Lens lens = this->lens(end[0], end[1]);
+    const Lens lens = balls_.lens(end[0], end[1]);
     const double turn = std::max(0.0, std::min(2.0 * kPi, turn_[e]));
     const double disc = lens.circle * lens.circle * turn / 6.0;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -455,13 +292,14 @@ void Union3::add_vertices() {
   }
   for (std::size_t v = 0; v < view_.n; ++v) {
     double& area = out_.surface_areas[v];
+    const double radius = balls_.radius(static_cast<Id>(v));
     if (!view_.has_vertex[v] || (joined[v] && !open[v])) {
       area = 0.0;
     } else {
-      area = std::max(0.0, radius_[v] * (2.0 * kPi * euler_[v] * radius_[v] + area));
-      area = std::min(area, 4.0 * kPi * square_[v]);
+      area = std::max(0.0, radius * (2.0 * kPi * euler_[v] * radius + area));
+      area = std::min(area, 4.0 * kPi * radius * radius);
     }
-    const double cone = radius_[v] * area / 3.0;
+    const double cone = radius * area / 3.0;
     out_.volumes[v] = std::max(0.0, out_.volumes[v] + cone);
     total_ += cone;
   }
@@ -472,9 +310,9 @@ void Union3::add_vertices() {
 void Union3::finish_voids() {
   auto add = [&](Id hollow, Id v, double sign) {
     if (!view_.has_vertex[v]) return;
-    const double area = sign * 2.0 * kPi * square_[at(v)];
+    const double area = sign * 2.0 * kPi * balls_.square(v);
     out_.void_areas[at(hollow)] += area;
-    out_.void_volumes[at(hollow)] -= radius_[at(v)] * area / 3.0;
+    out_.void_volumes[at(hollow)] -= balls_.radius(v) * area / 3.0;
   };
   for (std::size_t f = 0; f < view_.triangle_count; ++f) {
     const Id t = view_.triangle_tetrahedra[2 * f];

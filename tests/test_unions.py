@@ -421,6 +421,7 @@ def test_weights_equal_sampling(dimension, kind):
             assert content == parts.sum() == borders.sum() == 0
             continue
         total, each, error = sampled(points, weights, power, 100_000, seed=2)
+        error += 1e-9  # balls too small to be hit
         assert content == pytest.approx(total, abs=4 * error)
         assert parts == pytest.approx(each, abs=4 * error)
         assert not parts[cx.hidden].any()

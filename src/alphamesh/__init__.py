@@ -34,7 +34,9 @@ if TYPE_CHECKING:
     from alphamesh.io.geo import GEO_FORMATS, read_geo, write_geo
     from alphamesh.io.images import sample_mask
     from alphamesh.io.meshes import MESH_FORMATS, Mesh, write_mesh
+    from alphamesh.io.molecules import read_molecule
     from alphamesh.io.points import read_points, read_table
+    from alphamesh.molecule import Molecule
     from alphamesh.outline import Rings
     from alphamesh.persistence import Persistence, persistence
     from alphamesh.planar import Selection
@@ -86,6 +88,7 @@ __all__ = [
     "MeasureCurves",
     "MeasureCurves3D",
     "Mesh",
+    "Molecule",
     "Nearest",
     "Nearest3D",
     "Persistence",
@@ -122,6 +125,7 @@ __all__ = [
     "persistence",
     "plot",
     "read_geo",
+    "read_molecule",
     "read_points",
     "read_table",
     "restricted_voronoi",
@@ -152,7 +156,9 @@ _HOMES = {
     "io.geo": ("GEO_FORMATS", "read_geo", "write_geo"),
     "io.images": ("sample_mask",),
     "io.meshes": ("MESH_FORMATS", "Mesh", "write_mesh"),
+    "io.molecules": ("read_molecule",),
     "io.points": ("read_points", "read_table"),
+    "molecule": ("Molecule",),
     "outline": ("Rings",),
     "persistence": ("Persistence", "persistence"),
     "planar": ("Selection",),

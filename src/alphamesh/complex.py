@@ -209,26 +209,14 @@ class AlphaComplex(Exports):
             radius = self.choose_radius().radius
         return restricted_voronoi(self._filtration, radius, threads=threads, progress=progress)
 
-    def union(
-        self,
-        radius: float | None = None,
-        *,
-        threads: int | None = None,
-        progress: Progress | None = None,
-    ) -> UnionOfDiscs:
-        """Measure the union of the discs of `radius`: area, perimeter, holes, all by discs.
+    def union(self, radius: float | None = None, **options: Any) -> UnionOfDiscs:
+        """Measure the union of the discs of `radius`, by default of the one chosen.
 
-        Parameters
-        ----------
-        radius : float, optional
-            Finite, in the units of the points; by default the one that
-            :meth:`choose_radius` chooses.
-        threads, progress : optional
-            See :func:`alphamesh.union_of_balls`, also for the errors.
+        Parameters and errors are those of :func:`alphamesh.union_of_balls`.
         """
         if radius is None:
             radius = self.choose_radius().radius
-        return union_of_balls(self._filtration, radius, threads=threads, progress=progress)
+        return union_of_balls(self._filtration, radius, **options)
 
     def persistence(
         self, *, threads: int | None = None, progress: Progress | None = None

@@ -101,20 +101,11 @@ class AlphaComplex3D(AlphaComplex):
             radius = self.choose_radius().radius
         return AlphaShape3D(self._filtration, radius)
 
-    def union(  # type: ignore[override]
-        self,
-        radius: float | None = None,
-        *,
-        threads: int | None = None,
-        progress: Progress | None = None,
-    ) -> UnionOfBalls:
-        """Measure the union of the balls of `radius`: volume, surface, voids, all by balls.
-
-        Parameters and errors are those of :meth:`AlphaComplex.union`.
-        """
+    def union(self, radius: float | None = None, **options: Any) -> UnionOfBalls:  # type: ignore[override]
+        """Measure the union of the balls of `radius`: see :meth:`AlphaComplex.union`."""
         if radius is None:
             radius = self.choose_radius().radius
-        return union_of_balls(self._filtration, radius, threads=threads, progress=progress)
+        return union_of_balls(self._filtration, radius, **options)
 
     def critical_radii(self) -> FloatArray:
         """Return every radius at which the complex changes, ascending, without repeats.

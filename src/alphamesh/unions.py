@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
+from alphamesh._balls import ball_radii, present, rescaled, scaled, unscaled
 from alphamesh._kernels.space import parts3
 from alphamesh._kernels.unions import union2, union3
 from alphamesh.errors import ParameterError
@@ -23,16 +24,6 @@ if TYPE_CHECKING:
     from alphamesh.filtration import AnyFiltration
 
 __all__ = ["UnionOfBalls", "UnionOfDiscs", "union_of_balls"]
-
-# Coordinates that the kernels take as they are, and to which size they bring others. So
-# neither a product of four lengths nor one of two areas leaves the range of float64.
-_LARGEST, _LEAST = {2: 2.0**249, 3: 2.0**100}, {2: 2.0**-188, 3: 2.0**-100}
-_SCALED_TO = {2: 249, 3: 164}
-_LARGEST_RADIUS = 2.0**250
-
-# Squared values that differ by less, as a share of the largest square, may be in the wrong
-# order: several times what rounding can do to them.
-_CLOSE = 2e-12
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,14 +50,7 @@ class _Union(Record):
         0 where the square is negative: no ball. See ``AlphaComplex`` for the sign of the
         radius.
         """
-        if self.weights is None:
-            return read_only(np.full(len(self.points), max(0.0, self.radius)))
-        exponent = math.frexp(
-            max(abs(self.radius), _root(np.abs(self.weights).max(initial=0)))
-        )[1]
-        power = _power(math.ldexp(self.radius, -exponent))
-        squares = np.ldexp(self.weights, -2 * exponent) + power
-        return read_only(np.ldexp(np.sqrt(np.maximum(squares, 0.0)), exponent))
+        return ball_radii(self.weights, self.radius, len(self.points))
 
     def _cells_of(self, labels: IntArray, index: int, count: int, what: str) -> IntArray:
         """Return the rows at the corners of the cells of a hole whose balls are there."""
@@ -292,8 +276,8 @@ def union_of_balls(
 def _of_discs(
     filtration: Filtration, radius: float, threads: int | None, progress: Progress | None
 ) -> UnionOfDiscs:
-    vertex, edge, triangle = _present(filtration, radius)
-    points, weights, power, exponent = _scaled(filtration, radius, alone=not edge.any())
+    vertex, edge, triangle = present(filtration, radius)
+    points, weights, power, exponent = scaled(filtration, radius, alone=not edge.any())
     labels, count = _enclosed(filtration.edge_triangles, triangle, edge)
     area, areas, perimeters, hole_areas, hole_perimeters = union2(
         points,
@@ -313,20 +297,20 @@ def _of_discs(
     return UnionOfDiscs(
         filtration,
         radius,
-        _unscaled(area, 2 * exponent),
-        _rescaled(areas, 2 * exponent),
-        _rescaled(perimeters, exponent),
+        unscaled(area, 2 * exponent),
+        rescaled(areas, 2 * exponent),
+        rescaled(perimeters, exponent),
         labels,
-        _rescaled(hole_areas, 2 * exponent),
-        _rescaled(hole_perimeters, exponent),
+        rescaled(hole_areas, 2 * exponent),
+        rescaled(hole_perimeters, exponent),
     )
 
 
 def _of_balls(
     filtration: Filtration3D, radius: float, threads: int | None, progress: Progress | None
 ) -> UnionOfBalls:
-    vertex, edge, triangle, tetrahedron = _present(filtration, radius)
-    points, weights, power, exponent = _scaled(filtration, radius, alone=not edge.any())
+    vertex, edge, triangle, tetrahedron = present(filtration, radius)
+    points, weights, power, exponent = scaled(filtration, radius, alone=not edge.any())
     labels, count = _enclosed(filtration.triangle_tetrahedra, tetrahedron, triangle)
     volume, volumes, areas, void_volumes, void_areas = union3(
         points,
@@ -346,12 +330,12 @@ def _of_balls(
     return UnionOfBalls(
         filtration,
         radius,
-        _unscaled(volume, 3 * exponent),
-        _rescaled(volumes, 3 * exponent),
-        _rescaled(areas, 2 * exponent),
+        unscaled(volume, 3 * exponent),
+        rescaled(volumes, 3 * exponent),
+        rescaled(areas, 2 * exponent),
         labels,
-        _rescaled(void_volumes, 3 * exponent),
-        _rescaled(void_areas, 2 * exponent),
+        rescaled(void_volumes, 3 * exponent),
+        rescaled(void_areas, 2 * exponent),
     )
 
 
@@ -366,37 +350,6 @@ def _checked(radius: object, filtration: AnyFiltration) -> float:
     raise ParameterError(
         f"radius must be a finite number, in the units of the points; got {radius!r}"
     )
-
-
-def _present(filtration: AnyFiltration, radius: float) -> tuple[Any, ...]:
-    """Return which rows and which simplices of each higher dimension there are at `radius`."""
-    vertex = np.zeros(len(filtration.points), dtype=np.bool_)
-    vertex[filtration.simplices[0][:, 0]] = filtration.radii[0] <= radius
-    last = _settled(filtration, radius)
-    return vertex, *(radii <= last for radii in filtration.radii[1:])
-
-
-def _settled(filtration: AnyFiltration, radius: float) -> float:
-    """Return the value from `radius` on after which none follows too closely.
-
-    Values carry rounding errors. Of two that hardly differ, the larger may truly be the
-    smaller one, and the complex at a radius in between not that of any union; the one
-    that has both differs from the true one by simplices that hardly matter.
-    """
-    weights = filtration.weights
-    heaviest = 0.0 if weights is None else float(np.abs(weights).max(initial=0.0))
-    last, found = radius, True
-    while found:
-        found = False
-        scale = max(abs(last), _root(heaviest))
-        # Over the scale: no square leaves the range of float64.
-        power = _power(last / scale) + _CLOSE if scale else 0.0
-        limit = scale * math.copysign(_root(abs(power)), power)
-        for radii in filtration.radii[1:]:
-            reached = float(radii.max(initial=last, where=radii <= limit))
-            if reached > last:
-                last, found = reached, True
-    return last
 
 
 def _enclosed(cofaces: IntArray, cells: BoolArray, facets: BoolArray) -> tuple[IntArray, int]:
@@ -414,57 +367,3 @@ def _by_size(
     places = np.full(len(order) + 1, -1, dtype=np.int32)  # the last one, of -1, stays
     places[order] = np.arange(len(order), dtype=np.int32)
     return read_only(places.take(labels)), (sizes.take(order), others.take(order))
-
-
-def _root(square: Any) -> float:
-    return math.sqrt(float(square))
-
-
-def _power(radius: float) -> float:
-    return math.copysign(radius * radius, radius)
-
-
-def _scaled(
-    filtration: AnyFiltration, radius: float, *, alone: bool
-) -> tuple[FloatArray, FloatArray | None, float, int]:
-    """Return points, weights and squared radius over powers of two, and the exponent.
-
-    Where all balls are `alone`, only their own size counts, and no point is looked at.
-    """
-    points, weights = filtration.points, filtration.weights
-    dimension = points.shape[1]
-    sizes = np.abs(points)
-    largest = float(sizes.max(initial=0.0))
-    least = float(sizes.min(initial=np.inf, where=sizes > 0))
-    span = max(abs(radius), 0.0 if weights is None else _root(np.abs(weights).max(initial=0.0)))
-    exponent = 0
-    if alone:
-        exponent = math.frexp(span)[1]
-    elif largest >= _LARGEST[dimension] or least < _LEAST[dimension]:
-        exponent = int(np.frexp(largest)[1]) - _SCALED_TO[dimension]
-    elif span >= _LARGEST_RADIUS:
-        exponent = int(np.frexp(span)[1]) - 250
-    if math.frexp(span)[1] - exponent > 250:
-        raise ParameterError(
-            f"a radius of {span:.6g} is too large beside coordinates as small as these; "
-            "scale the points up"
-        )
-    if exponent:
-        points = points if alone else np.ldexp(points, -exponent)
-        if weights is not None:
-            weights = np.ldexp(weights, -2 * exponent)
-    return points, weights, _power(math.ldexp(radius, -exponent)), exponent
-
-
-def _rescaled(array: FloatArray, exponent: int) -> FloatArray:
-    """Return `array` times a power of two; what leaves the range becomes 0 or infinite."""
-    if exponent == 0:
-        return read_only(array)
-    with np.errstate(over="ignore", under="ignore"):
-        return read_only(np.ldexp(array, exponent))
-
-
-def _unscaled(value: float, exponent: int) -> float:
-    """Return `value` times a power of two, 0 or infinite where that leaves the range."""
-    with np.errstate(over="ignore", under="ignore"):
-        return float(np.ldexp(value, exponent))

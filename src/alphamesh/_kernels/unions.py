@@ -1,7 +1,7 @@
 """Kernels for the measures of unions of discs and of balls.
 
 They suppose coordinates, radii and weights in the range that
-:func:`alphamesh.unions.kernel_scale` brings them into.
+``alphamesh._balls.scaled`` brings them into.
 """
 
 from __future__ import annotations
