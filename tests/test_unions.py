@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from mpmath import mp
 
 import alphamesh as am
 from alphamesh.errors import CoordinateRangeError, ParameterError
@@ -21,27 +20,10 @@ from alphamesh.unions import UnionOfBalls, UnionOfDiscs, union_of_balls
 from strategies import FAMILIES
 from strategies3 import FAMILIES as FAMILIES_IN_SPACE
 from union_oracle import Balls
-from weighted_samples import WEIGHTS
+from union_samples import holes, measures, sampled, union, volume_of_balls
 
 PI = math.pi
 TURN = 2 * PI
-
-
-def union(points, radius, **options):
-    return union_of_balls(filtration(np.asarray(points, dtype=float)), radius, **options)
-
-
-def measures(found):
-    """Content, boundary, and both of each disc or ball."""
-    if isinstance(found, UnionOfDiscs):
-        return found.area, found.perimeter, found.disc_areas, found.disc_perimeters
-    return found.volume, found.surface_area, found.ball_volumes, found.ball_surface_areas
-
-
-def holes(found):
-    if isinstance(found, UnionOfDiscs):
-        return found.hole_areas, found.hole_perimeters
-    return found.void_volumes, found.void_surface_areas
 
 
 # ------------------------------------------------------------------ closed forms
@@ -84,43 +66,6 @@ def test_two_discs(gap):
     half = math.atan2(math.sqrt((1 - met) * (1 + met)), met)
     assert found.area == pytest.approx(TURN - 2 * (half - met * math.sin(half)), rel=1e-12)
     assert found.perimeter == pytest.approx(2 * (TURN - 2 * half), rel=1e-12)
-
-
-def area_of_discs(centres, radii):
-    """Area of a union of discs, by Green's theorem along the arcs that no other covers."""
-    area = 0.0
-    for i, (x, y) in enumerate(centres):
-        r, events, depth = radii[i], [], 0
-        for j, (u, v) in enumerate(centres):
-            distance = math.hypot(u - x, v - y)
-            if i == j or distance >= r + radii[j] or distance + radii[j] <= r:
-                continue
-            if distance + r <= radii[j]:
-                break  # inside of another
-            half = math.acos((distance**2 + r**2 - radii[j] ** 2) / (2 * distance * r))
-            begin = (math.atan2(v - y, u - x) - half) % TURN
-            end = (begin + 2 * half) % TURN
-            depth += end < begin
-            events += [(begin, 1), (end, -1)]
-        else:
-            last = 0.0
-            for angle, step in [*sorted(events), (TURN, 0)]:
-                if depth == 0:
-                    area += r * r * (angle - last) / 2
-                    area += r * x * (math.sin(angle) - math.sin(last)) / 2
-                    area -= r * y * (math.cos(angle) - math.cos(last)) / 2
-                last, depth = angle, depth + step
-    return area
-
-
-def volume_of_balls(centres, radii, heights):
-    """Volume of balls whose centres lie in one plane, slice by slice; kinks at `heights`."""
-
-    def slice_(z):
-        z = float(z)
-        return area_of_discs(centres, [math.sqrt(max(0.0, (r - z) * (r + z))) for r in radii])
-
-    return 2 * float(mp.quad(slice_, sorted({0.0, *heights, *radii}), maxdegree=8))
 
 
 @pytest.mark.parametrize("sides", [(1, 1, 1), (1.2, 1, 0.7), (1.5, 1.5, 0.1), (1.4, 1, 1)])
@@ -189,23 +134,6 @@ def test_nested_and_merged():
 
 
 # ------------------------------------------------------------------ against others
-
-
-def sampled(points, weights, power, count, seed):
-    """Estimate the content of a union and of each part, and a standard error of both."""
-    rng = np.random.default_rng(seed)
-    radii = np.sqrt(np.maximum(weights + power, 0))
-    low, high = (points - radii[:, None]).min(axis=0), (points + radii[:, None]).max(axis=0)
-    hits = np.zeros(len(points))
-    for _ in range(count // 10_000):
-        queries = rng.uniform(low, high, size=(10_000, points.shape[1]))
-        distance_sq = ((queries[:, None] - points) ** 2).sum(axis=2) - weights
-        owner = distance_sq.argmin(axis=1)
-        inside = distance_sq[np.arange(len(queries)), owner] <= power
-        hits += np.bincount(owner[inside], minlength=len(points))
-    box = np.prod(high - low)
-    share = hits.sum() / count
-    return box * share, box * hits / count, box * math.sqrt(share * (1 - share) / count)
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
@@ -353,87 +281,6 @@ def test_holes_and_union_fill_the_box(dimension):
     parts = (measures(found)[2]).reshape((7,) * dimension)
     inner = parts[(slice(1, -1),) * dimension]
     assert inner + sizes[0] == pytest.approx(step**dimension, rel=1e-12)
-
-
-# ------------------------------------------------------------------ with weights
-
-
-@pytest.mark.parametrize("gap", [0.1, 0.59, 0.6, 0.61, 0.9, 1.0, 1.3, 1.6 - 1e-9, 1.6, 2.0])
-def test_two_balls_of_different_size(gap):
-    big, small = 1.1, 0.5
-    ball = 4 / 3 * PI * (big**3 + (small**3 if gap > big - small else 0))
-    lens = 0.0
-    if big - small < gap < big + small:
-        square = gap**2 + 2 * gap * (big + small) - 3 * (big - small) ** 2
-        lens = PI * (big + small - gap) ** 2 * square / (12 * gap)
-    cx = am.AlphaComplex([[0, 0, 0], [0, gap, 0]], weights=[big**2, small**2])
-    assert cx.union(0).volume == pytest.approx(ball - lens, rel=1e-12)
-    assert cx.union(0).ball_radii == pytest.approx([big, small], rel=1e-15)
-    # The same balls, of other weights at another radius.
-    grown = am.AlphaComplex([[0, 0, 0], [0, gap, 0]], weights=[big**2 + 1, small**2 + 1])
-    assert grown.union(-1).volume == pytest.approx(ball - lens, rel=1e-12)
-    discs = am.AlphaComplex([[0, 0], [0, gap]], weights=[big**2, small**2]).union()
-    area = area_of_discs([(0, 0), (0, gap)], [big, small])
-    assert discs.area == pytest.approx(area, rel=1e-9)
-
-
-def test_three_balls_of_different_size():
-    centres, radii = [(0, 0), (1.3, 0.1), (0.4, 0.9)], [1.1, 0.7, 0.8]
-    points = np.column_stack((centres, np.zeros(3)))
-    found = am.AlphaComplex(points, weights=np.square(radii)).union(0)
-    kinks = []
-    for i, j in itertools.combinations(range(3), 2):
-        length = math.dist(centres[i], centres[j])
-        near = (length**2 + radii[i] ** 2 - radii[j] ** 2) / (2 * length)
-        kinks.append(math.sqrt(radii[i] ** 2 - near**2))
-    square = found.filtration.radii[2][0]
-    kinks.append(math.sqrt(-square * abs(square)))  # where the three spheres meet
-    assert found.volume == pytest.approx(volume_of_balls(centres, radii, kinks), rel=1e-12)
-
-
-@pytest.mark.parametrize("kind", sorted(WEIGHTS))
-@pytest.mark.parametrize("seed", range(3))
-def test_weights_in_fifty_digits(kind, seed):
-    rng = np.random.default_rng(seed)
-    points = rng.random((16, 3))
-    built = am.AlphaComplex(points, weights=WEIGHTS[kind](rng, 16, 0.4)).filtration
-    critical = np.unique(np.concatenate(built.radii))
-    for radius in rng.choice((critical[1:] + critical[:-1]) / 2, 4):
-        found, exact = union_of_balls(built, radius), Balls(built, radius)
-        size = found.ball_radii.max()
-        assert found.volume == pytest.approx(exact.volume, rel=1e-11)
-        assert found.ball_volumes == pytest.approx(exact.volumes, abs=1e-11 * size**3)
-        assert found.ball_surface_areas == pytest.approx(exact.areas, abs=1e-11 * size**2)
-
-
-@pytest.mark.parametrize("dimension", [2, 3])
-@pytest.mark.parametrize("kind", sorted(WEIGHTS))
-def test_weights_equal_sampling(dimension, kind):
-    rng = np.random.default_rng(3)
-    points = rng.random((20, dimension))
-    weights = WEIGHTS[kind](rng, 20, 0.3)
-    cx = am.AlphaComplex(points, weights=weights)
-    for radius in (0.0, 0.15, -0.1):
-        found = cx.union(radius)
-        content, _, parts, borders = measures(found)
-        power = radius * abs(radius)
-        if (weights + power <= 0).all():
-            assert content == parts.sum() == borders.sum() == 0
-            continue
-        total, each, error = sampled(points, weights, power, 100_000, seed=2)
-        error += 1e-9  # balls too small to be hit
-        assert content == pytest.approx(total, abs=4 * error)
-        assert parts == pytest.approx(each, abs=4 * error)
-        assert not parts[cx.hidden].any()
-
-
-@pytest.mark.parametrize("dimension", [2, 3])
-def test_equal_weights_are_a_radius(dimension):
-    points = np.random.default_rng(3).random((200, dimension))
-    plain = measures(am.AlphaComplex(points).union(0.15))
-    weighted = measures(am.AlphaComplex(points, weights=np.full(200, 0.15**2)).union(0.0))
-    for a, b in zip(plain, weighted, strict=True):
-        assert b == pytest.approx(a, rel=1e-9, abs=1e-12)
 
 
 # ------------------------------------------------------------------ degenerate clouds
