@@ -158,6 +158,7 @@ NB_MODULE(_core, m) {
   bind_space3(m);
   bind_surface3(m);
   bind_tiles(m);
+  bind_unions(m);
   bind_voronoi2(m);
   m.def("trim_memory", &trim_memory);
   m.def("self_test", &self_test);

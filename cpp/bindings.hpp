@@ -151,6 +151,7 @@ void bind_regular3(nb::module_& m);
 void bind_space3(nb::module_& m);
 void bind_surface3(nb::module_& m);
 void bind_tiles(nb::module_& m);
+void bind_unions(nb::module_& m);
 void bind_voronoi2(nb::module_& m);
 
 }  // namespace alphamesh

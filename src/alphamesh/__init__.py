@@ -34,7 +34,9 @@ if TYPE_CHECKING:
     from alphamesh.io.geo import GEO_FORMATS, read_geo, write_geo
     from alphamesh.io.images import sample_mask
     from alphamesh.io.meshes import MESH_FORMATS, Mesh, write_mesh
+    from alphamesh.io.molecules import read_molecule
     from alphamesh.io.points import read_points, read_table
+    from alphamesh.molecule import Molecule
     from alphamesh.outline import Rings
     from alphamesh.persistence import Persistence, persistence
     from alphamesh.planar import Selection
@@ -57,6 +59,7 @@ if TYPE_CHECKING:
     from alphamesh.solid import Selection3D
     from alphamesh.surface import Surface, boundary_surface
     from alphamesh.table import PointTable
+    from alphamesh.unions import UnionOfBalls, UnionOfDiscs, union_of_balls
     from alphamesh.voronoi import ClippedVoronoi, Voronoi, voronoi
 
     __version__: str
@@ -85,6 +88,7 @@ __all__ = [
     "MeasureCurves",
     "MeasureCurves3D",
     "Mesh",
+    "Molecule",
     "Nearest",
     "Nearest3D",
     "Persistence",
@@ -99,6 +103,8 @@ __all__ = [
     "Shells",
     "SimplexKind",
     "Surface",
+    "UnionOfBalls",
+    "UnionOfDiscs",
     "Voids",
     "Voronoi",
     "__version__",
@@ -119,11 +125,13 @@ __all__ = [
     "persistence",
     "plot",
     "read_geo",
+    "read_molecule",
     "read_points",
     "read_table",
     "restricted_voronoi",
     "sample_mask",
     "sample_solid",
+    "union_of_balls",
     "voronoi",
     "write_geo",
     "write_mesh",
@@ -148,7 +156,9 @@ _HOMES = {
     "io.geo": ("GEO_FORMATS", "read_geo", "write_geo"),
     "io.images": ("sample_mask",),
     "io.meshes": ("MESH_FORMATS", "Mesh", "write_mesh"),
+    "io.molecules": ("read_molecule",),
     "io.points": ("read_points", "read_table"),
+    "molecule": ("Molecule",),
     "outline": ("Rings",),
     "persistence": ("Persistence", "persistence"),
     "planar": ("Selection",),
@@ -165,6 +175,7 @@ _HOMES = {
     "shells": ("Shells",),
     "surface": ("Surface", "boundary_surface"),
     "table": ("PointTable",),
+    "unions": ("UnionOfBalls", "UnionOfDiscs", "union_of_balls"),
     "voronoi": ("ClippedVoronoi", "Voronoi", "voronoi"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

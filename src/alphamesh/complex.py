@@ -17,6 +17,7 @@ from alphamesh.points import Cloud, as_cloud
 from alphamesh.radius import RadiusChoice, choose_radius
 from alphamesh.restricted import RestrictedVoronoi, restricted_voronoi
 from alphamesh.shape import AlphaShape
+from alphamesh.unions import UnionOfDiscs, union_of_balls
 from alphamesh.voronoi import Voronoi, voronoi_of
 
 if TYPE_CHECKING:
@@ -207,6 +208,15 @@ class AlphaComplex(Exports):
         if radius is None:
             radius = self.choose_radius().radius
         return restricted_voronoi(self._filtration, radius, threads=threads, progress=progress)
+
+    def union(self, radius: float | None = None, **options: Any) -> UnionOfDiscs:
+        """Measure the union of the discs of `radius`, by default of the one chosen.
+
+        Parameters and errors are those of :func:`alphamesh.union_of_balls`.
+        """
+        if radius is None:
+            radius = self.choose_radius().radius
+        return union_of_balls(self._filtration, radius, **options)
 
     def persistence(
         self, *, threads: int | None = None, progress: Progress | None = None

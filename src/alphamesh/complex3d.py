@@ -11,6 +11,7 @@ from alphamesh.curves3d import MeasureCurves3D, measure_curves_in_space
 from alphamesh.errors import DimensionError
 from alphamesh.filtration3d import filtration_in_space
 from alphamesh.shape3d import AlphaShape3D
+from alphamesh.unions import UnionOfBalls, union_of_balls
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -99,6 +100,12 @@ class AlphaComplex3D(AlphaComplex):
         if radius is None:
             radius = self.choose_radius().radius
         return AlphaShape3D(self._filtration, radius)
+
+    def union(self, radius: float | None = None, **options: Any) -> UnionOfBalls:  # type: ignore[override]
+        """Measure the union of the balls of `radius`: see :meth:`AlphaComplex.union`."""
+        if radius is None:
+            radius = self.choose_radius().radius
+        return union_of_balls(self._filtration, radius, **options)
 
     def critical_radii(self) -> FloatArray:
         """Return every radius at which the complex changes, ascending, without repeats.

@@ -23,6 +23,7 @@ __all__ = [
     "MissingLibraryError",
     "NonFiniteError",
     "ParameterError",
+    "UnknownElementError",
     "UnweightedOnlyError",
     "WeightsError",
 ]
@@ -98,6 +99,10 @@ class EmptyMaskError(CloudError):
 
 class ParameterError(AlphameshError, ValueError):
     """A parameter outside the values that it can take."""
+
+
+class UnknownElementError(AlphameshError, ValueError):
+    """Atoms of elements that no van der Waals radius is known for."""
 
 
 class DimensionError(AlphameshError, TypeError):

@@ -252,6 +252,48 @@ def nearest3(
     threads: int,
 ) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64]]: ...
 def trim_memory() -> None: ...
+def union2(
+    edges: NDArray[np.int32],
+    edge_triangles: NDArray[np.int32],
+    triangles: NDArray[np.int32],
+    triangle_edges: NDArray[np.int32],
+    has: tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]],
+    hole: NDArray[np.int32],
+    hole_count: int,
+    points: NDArray[np.float64],
+    weights: NDArray[np.float64] | None,
+    power: float,
+    threads: int,
+    progress: Callable[[float], object] | None,
+) -> tuple[
+    float,
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+]: ...
+def union3(
+    edges: NDArray[np.int32],
+    triangles: NDArray[np.int32],
+    triangle_edges: NDArray[np.int32],
+    triangle_tetrahedra: NDArray[np.int32],
+    tetrahedra: NDArray[np.int32],
+    tetrahedron_triangles: NDArray[np.int32],
+    has: tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]],
+    hollow: NDArray[np.int32],
+    void_count: int,
+    points: NDArray[np.float64],
+    weights: NDArray[np.float64] | None,
+    power: float,
+    threads: int,
+    progress: Callable[[float], object] | None,
+) -> tuple[
+    float,
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+]: ...
 def self_test() -> str: ...
 
 class Recycling:

@@ -32,6 +32,7 @@ COMMANDS = {
     "persistence": "tell when components and holes come and go",
     "betti": "count components and holes at every radius",
     "measures": "measure the complex at many radii",
+    "molecule": "measure a molecule: volume, surface, voids, atom by atom",
     "tiles": "build a complex larger than memory, tile by tile",
     "completion": "print a script for completion in bash, zsh or fish",
 }

@@ -146,6 +146,7 @@ _OPTION_OF = {
     **{name: f"--{name}" for name in ("skip", "encoding", "key")},
 }
 _KEYWORD = re.compile(rf"\b({'|'.join(_OPTION_OF)})=(\([^)]*\)|'[^']*'|[\w.]*)")
+_RADII = re.compile(r"\bradii=\{'(\w+)': (\w+)\}")
 _SAMPLE_MASK = re.compile(r"\bsample_mask(\(.*?\))?")
 
 
@@ -161,7 +162,7 @@ def _as_option(found: re.Match[str]) -> str:
 def explain(error: BaseException) -> str:
     """Return what to tell of an error that is known to happen."""
     if isinstance(error, AlphameshError):
-        text = _KEYWORD.sub(_as_option, str(error))
+        text = _RADII.sub(r"--radius \1=\2", _KEYWORD.sub(_as_option, str(error)))
         return _SAMPLE_MASK.sub("alphamesh sample", text)
     if isinstance(error, MemoryError):
         return "not enough memory; try fewer points (--points), or thin the cloud out"

@@ -19,6 +19,7 @@ __all__ = [
     "BettiType",
     "ColumnType",
     "ColumnsType",
+    "ElementRadiusType",
     "MostRadius",
     "RadiiType",
     "RadiusType",
@@ -185,6 +186,27 @@ class RadiiType(ParamType):
         if not all(least <= radius < float("inf") for radius in radii):
             self.fail(f"{value!r} holds a number that is no finite radius", param, ctx)
         return radii
+
+
+class ElementRadiusType(ParamType):
+    """The radius of an element: ``Fe=1.4``."""
+
+    name = "radius"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, float]:
+        """Return the symbol and the radius."""
+        if isinstance(value, tuple):
+            return value
+        symbol, _, text = str(value).partition("=")
+        try:
+            radius = float(text)
+        except ValueError:
+            radius = -1.0
+        if not symbol.strip().isalpha() or not 0 <= radius < float("inf"):
+            self.fail(f"{value!r} is not an element and a radius, such as Fe=1.4", param, ctx)
+        return symbol.strip(), radius
 
 
 class BettiType(ParamType):

@@ -17,6 +17,7 @@ from alphamesh.io._ply import read_ply, vertex_properties
 from alphamesh.io._scans import las_table, pcd_table
 from alphamesh.io._sources import Source
 from alphamesh.io._text import layout_of, read_cells
+from alphamesh.io.molecules import MOLECULE_FORMATS, molecule_table
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -116,6 +117,11 @@ def _of_pcd(source: Source, wanted: Wanted, key: str | None) -> dict[str, NDArra
     return _of_table(source, wanted, *pcd_table(source))
 
 
+def _of_molecule(source: Source, wanted: Wanted, key: str | None) -> dict[str, NDArray[Any]]:
+    """Return what is known of the atoms: weights, radii, elements and so on."""
+    return _of_table(source, wanted, *molecule_table(source))
+
+
 def _of_table(
     source: Source, wanted: Wanted, names: Sequence[str], table: Any
 ) -> dict[str, NDArray[Any]]:
@@ -171,5 +177,6 @@ OF: dict[str, Callable[[Source, Wanted, str | None], dict[str, NDArray[Any]]]] =
     "parquet": _of_parquet,
     "pcd": _of_pcd,
     "ply": _of_ply,
+    **dict.fromkeys(MOLECULE_FORMATS, _of_molecule),
 }
 """What returns the other columns, by format."""

@@ -19,6 +19,7 @@ from alphamesh.io._scans import read_las, read_pcd
 from alphamesh.io._sources import Source, open_source
 from alphamesh.io._text import read_text
 from alphamesh.io.geo import GEO_FORMATS, read_geo
+from alphamesh.io.molecules import MOLECULE_FORMATS, read_atoms
 from alphamesh.table import PointTable
 
 if TYPE_CHECKING:
@@ -42,6 +43,7 @@ _BINARY = {
     "parquet": read_parquet,
     "pcd": read_pcd,
     "ply": read_ply,
+    **dict.fromkeys(MOLECULE_FORMATS, read_atoms),
 }
 
 # Where three columns without names are coordinates, as a rule.
@@ -54,6 +56,7 @@ _VECTOR = tuple(key[1:] for key in GEO_FORMATS if key[1:] not in ("parquet", "wk
 POINT_FORMATS: tuple[str, ...] = (
     *_TEXT,
     *("las", "laz", "npy", "npz", "parquet", "pcd", "ply"),
+    *MOLECULE_FORMATS,
     *_VECTOR,
 )
 """The formats that :func:`read_points` reads, each also a file name extension."""
@@ -78,8 +81,8 @@ def read_points(  # noqa: PLR0913 (one keyword per property of a text table)
 
     Text tables (CSV, TSV, TXT, DAT, XYZ; also packed as ``.gz``), NPY and NPZ, Parquet,
     the vertices of PLY files, ASCII or binary, the clouds of scanners: LAS and LAZ (with
-    laspy), PCD (with pypcd4), and the point layers of a GIS: GeoJSON, GeoPackage,
-    FlatGeobuf, GeoParquet, shapefiles, WKT.
+    laspy), PCD (with pypcd4), the atoms of molecules: PDB and mmCIF (with gemmi), and the
+    point layers of a GIS: GeoJSON, GeoPackage, FlatGeobuf, GeoParquet, shapefiles, WKT.
 
     Parameters
     ----------
@@ -131,8 +134,8 @@ def read_points(  # noqa: PLR0913 (one keyword per property of a text table)
     ParameterError
         If a parameter has no possible value, or does not go with the format.
     MissingLibraryError
-        For Parquet, LAS, LAZ, PCD or files of a GIS, if the library that reads them is
-        not installed.
+        For Parquet, LAS, LAZ, PCD, molecules or files of a GIS, if the library that reads
+        them is not installed.
 
     See Also
     --------
@@ -241,7 +244,7 @@ class _Request:
     def _coordinates(self, source: Source) -> FloatArray:
         if self.kind in _TEXT:
             return read_text(source, self.wanted, self.text, _TEXT[self.kind])
-        if source.compressed:
+        if source.compressed and self.kind not in MOLECULE_FORMATS:
             raise source.failure(
                 f"is a packed {self.kind.upper()} file; unpack it with gunzip first"
             )

@@ -1,0 +1,346 @@
+#include "union3.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "balls3.hpp"
+#include "waves.hpp"
+
+// The union of balls is cut into pieces by the alpha complex (Edelsbrunner 1995): its
+// tetrahedra; a flap on each side of a triangle that has no tetrahedron there, up to the
+// point where the three spheres meet; what is left of the lens around each edge, a share of
+// its full turn; and what is left of each ball, a share of its sphere. No ball is measured
+// as a whole and then diminished, so that little cancels.
+//
+// The part of a ball in its power cell: pyramids over the facets of the cell, cut by the
+// disc in which two spheres' balls meet, and the cone over the sphere's part of the boundary.
+// The area of that part follows from the angles around it (Gauss and Bonnet).
+
+namespace alphamesh {
+namespace {
+
+using Id = std::int32_t;
+using Vector = Vector3<double>;
+constexpr double kPi = 3.14159265358979323846;
+
+// The ends of each edge of a tetrahedron.
+constexpr int kEdge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+std::size_t at(Id i) { return static_cast<std::size_t>(i); }
+
+struct FlapRecord {
+  Id v[3], e[3];
+  double half[3], turn[3], share[3], volume;
+};
+
+struct CellRecord {
+  Id v[4], e[6];  // edges: -1 where the angle is not asked for
+  Id hollow;
+  double share[4], angle[6], volume, area;
+};
+
+class Union3 {
+ public:
+  Union3(const BallsView& view, Job& job);
+  UnionOfBalls3 run();
+
+ private:
+  int open_sides(std::size_t f) const;
+  void count();
+  void add_triangles();
+  void add_tetrahedra();
+  void add_edges();
+  void add_vertices();
+  CellRecord cell(std::size_t t) const;
+  void measure_void(std::size_t t, CellRecord& out) const;
+  void finish_voids();
+  Id cell_edge(std::size_t t, int k) const;
+
+  const BallsView& view_;
+  Job& job_;
+  UnionOfBalls3 out_;
+  CarefulSum total_;
+  Balls3 balls_;
+  Buffer<Id> euler_;            // Euler characteristic of each sphere's part of the boundary
+  Buffer<std::uint8_t> state_;  // of each edge: kSpanned, kOpen
+  Buffer<double> turn_;         // of each edge: how much of its circle is on the boundary
+  Buffer<Id> edge_hollow_;      // of each edge outside of the complex: its void
+  static constexpr std::uint8_t kSpanned = 1, kOpen = 2;
+};
+
+Union3::Union3(const BallsView& view, Job& job)
+    : view_(view),
+      job_(job),
+      balls_(view.points, view.weights, view.n, view.power),
+      euler_(view.n),
+      state_(view.edge_count),
+      turn_(view.edge_count),
+      edge_hollow_(view.void_count > 0 ? view.edge_count : 0) {
+  out_.volumes = Buffer<double>(view.n);
+  out_.surface_areas = Buffer<double>(view.n);
+  out_.void_volumes = Buffer<double>(view.void_count);
+  out_.void_areas = Buffer<double>(view.void_count);
+  std::fill(out_.volumes.begin(), out_.volumes.end(), 0.0);
+  std::fill(out_.surface_areas.begin(), out_.surface_areas.end(), 0.0);
+  std::fill(out_.void_volumes.begin(), out_.void_volumes.end(), 0.0);
+  std::fill(out_.void_areas.begin(), out_.void_areas.end(), 0.0);
+  std::fill(euler_.begin(), euler_.end(), 2);
+  std::fill(state_.begin(), state_.end(), std::uint8_t{0});
+  std::fill(turn_.begin(), turn_.end(), 2.0 * kPi);
+  std::fill(edge_hollow_.begin(), edge_hollow_.end(), -1);
+}
+
+// Sides of a triangle without a tetrahedron of the complex.
+int Union3::open_sides(std::size_t f) const {
+  int open = 2;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Id t = view_.triangle_tetrahedra[2 * f + k];
+    if (t >= 0 && view_.has_tetrahedron[t]) --open;
+  }
+  return open;
+}
+
+// The boundary on a sphere is what the link of its vertex leaves of it.
+void Union3::count() {
+  for (std::size_t e = 0; e < view_.edge_count; ++e) {
+    if (!view_.has_edge[e]) continue;
+    for (std::size_t k = 0; k < 2; ++k) --euler_[at(view_.edges[2 * e + k])];
+  }
+  job_.poll();
+  for (std::size_t f = 0; f < view_.triangle_count; ++f) {
+    if (!view_.has_triangle[f]) continue;
+    const std::uint8_t state = open_sides(f) > 0 ? kSpanned | kOpen : kSpanned;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++euler_[at(view_.triangles[3 * f + k])];
+      state_[at(view_.triangle_edges[3 * f + k])] |= state;
+    }
+  }
+  job_.poll();
+  for (std::size_t t = 0; t < view_.tetrahedron_count; ++t) {
+    if (!view_.has_tetrahedron[t]) continue;
+    for (std::size_t k = 0; k < 4; ++k) --euler_[at(view_.tetrahedra[4 * t + k])];
+  }
+  for (std::size_t e = 0; e < view_.edge_count; ++e) {
+    if (view_.has_edge[e] && state_[e] == 0) state_[e] = kOpen;
+  }
+}
+
+void Union3::add_triangles() {
+  in_waves<FlapRecord>(
+      view_.triangle_count, job_, 0.4,
+      [&](std::size_t f, std::vector<FlapRecord>& records) {
+        if (!view_.has_triangle[f]) return;
+        const int open = open_sides(f);
+        if (open == 0) return;
+        const Flap flap = balls_.flap(view_.triangles + 3 * f);
+        FlapRecord record{};
+        for (std::size_t k = 0; k < 3; ++k) {
+          record.v[k] = view_.triangles[3 * f + k];
+          record.e[k] = view_.triangle_edges[3 * f + k];
+          record.half[k] = open * flap.half[k];
+          record.turn[k] = open * flap.turn[k];
+          record.share[k] = open * flap.share[k] * flap.height / 3.0;
+        }
+        record.volume = open * flap.area * flap.height / 3.0;
+        records.push_back(record);
+      },
+      [&](const FlapRecord& record) {
+        for (int k = 0; k < 3; ++k) {
+          const std::size_t v = at(record.v[k]);
+          turn_[at(record.e[k])] -= record.half[k];
+          out_.surface_areas[v] -= balls_.radius(record.v[k]) * record.turn[k];
+          out_.volumes[v] += record.share[k];
+        }
+        total_ += record.volume;
+      });
+}
+
+// The edge between two corners of a tetrahedron.
+Id Union3::cell_edge(std::size_t t, int k) const {
+  const int a = kEdge[k][0], b = kEdge[k][1];
+  // In a face with both, the edge is opposite to the third corner.
+  const int away = a > 0 ? 0 : (b > 1 ? 1 : 2), third = 6 - a - b - away;
+  const std::size_t f = at(view_.tetrahedron_triangles[4 * t + at(away)]);
+  return view_.triangle_edges[3 * f + at(third > away ? third - 1 : third)];
+}
+
+// What a tetrahedron outside of the complex adds to its void: itself, less what the balls
+// have of it.
+void Union3::measure_void(std::size_t t, CellRecord& out) const {
+  const Id* corner = view_.tetrahedra + 4 * t;
+  for (int k = 0; k < 4; ++k) {
+    if (!view_.has_vertex[corner[k]]) continue;
+    const double s = balls_.square(corner[k]), r = balls_.radius(corner[k]);
+    out.area += 2.0 * kPi * s;
+    out.volume -= 2.0 * kPi * s * r / 3.0;
+  }
+  auto edge = [&](const Lens& lens, Id i, Id j, double angle) {
+    const double si = balls_.square(i), sj = balls_.square(j);
+    const double ri = balls_.radius(i), rj = balls_.radius(j);
+    out.area += (lens.from[0] * ri + lens.from[1] * rj) * angle;
+    out.volume -= (lens.from[0] * si + lens.from[1] * sj) * angle / 3.0 +
+                  lens.length * lens.circle * lens.circle * angle / 6.0;
+  };
+  for (int k = 0; k < 6; ++k) {
+    const Id i = corner[kEdge[k][0]], j = corner[kEdge[k][1]];
+    if (view_.has_edge[out.e[k]]) edge(balls_.lens(i, j), i, j, out.angle[k]);
+  }
+  for (int k = 0; k < 4; ++k) {
+    const Id f = view_.tetrahedron_triangles[4 * t + at(k)];
+    if (!view_.has_triangle[f]) continue;
+    const Id* face = view_.triangles + 3 * at(f);
+    const Flap flap = balls_.flap(face);
+    out.volume -= flap.area * flap.height / 3.0;
+    for (int m = 0; m < 3; ++m) {
+      const double s = balls_.square(face[m]), r = balls_.radius(face[m]);
+      edge(flap.lens[m], face[kEndsOf[m][0]], face[kEndsOf[m][1]], -flap.half[m]);
+      out.area -= s * flap.turn[m];
+      out.volume += s * r * flap.turn[m] / 3.0;
+    }
+  }
+}
+
+CellRecord Union3::cell(std::size_t t) const {
+  const Id* corner = view_.tetrahedra + 4 * t;
+  CellRecord out{};
+  const Point3 p[4] = {balls_.point(corner[0]), balls_.point(corner[1]), balls_.point(corner[2]),
+                       balls_.point(corner[3])};
+  Vector normal[4];
+  const Vector u = p[1] - p[0], v = p[2] - p[0], w = p[3] - p[0];
+  const double sizes = norm(u) * norm(v) * norm(w);
+  double det = dot(cross(u, v), w);
+  const bool thin = !(std::fabs(det) > kThin * sizes);
+  if (thin) det = volume_accurate(p[0], p[1], p[2], p[3]);
+  for (int k = 0; k < 4; ++k) {  // inward
+    const Point3 a = p[kFaceOf[k][0]], b = p[kFaceOf[k][1]], c = p[kFaceOf[k][2]];
+    normal[k] = thin ? normal_accurate(a, b, c) : cross(b - a, c - a);
+    if ((k % 2 == 0) == (det > 0.0)) normal[k] = {-normal[k].x, -normal[k].y, -normal[k].z};
+  }
+  const double size = std::fabs(det);
+  const bool inside = view_.has_tetrahedron[t];
+  out.hollow = inside ? -1 : view_.hollow[t];
+  out.volume = size / 6.0;
+  for (int k = 0; k < 4; ++k) out.v[k] = corner[k];
+  for (int k = 0; k < 6; ++k) {
+    const int a = kEdge[k][0], b = kEdge[k][1];
+    out.e[k] = cell_edge(t, k);
+    if (inside ? state_[at(out.e[k])] == kSpanned : !view_.has_edge[out.e[k]]) {
+      if (inside) out.e[k] = -1;
+      continue;
+    }
+    int c = 0;
+    while (c == a || c == b) ++c;
+    const int d = 6 - a - b - c;
+    out.angle[k] = std::atan2(size * norm(p[b] - p[a]), -dot(normal[c], normal[d]));
+  }
+  if (inside) {
+    balls_.share_cell(corner, normal, size, out.share);
+  } else {
+    measure_void(t, out);
+  }
+  return out;
+}
+
+void Union3::add_tetrahedra() {
+  in_waves<CellRecord>(
+      view_.tetrahedron_count, job_, 0.5,
+      [&](std::size_t t, std::vector<CellRecord>& records) {
+        if (view_.has_tetrahedron[t] || view_.hollow[t] >= 0) records.push_back(cell(t));
+      },
+      [&](const CellRecord& record) {
+        if (record.hollow >= 0) {
+          out_.void_volumes[at(record.hollow)] += record.volume;
+          out_.void_areas[at(record.hollow)] += record.area;
+          for (const Id e : record.e) edge_hollow_[at(e)] = record.hollow;
+          return;
+        }
+        for (int k = 0; k < 4; ++k) out_.volumes[at(record.v[k])] += record.share[k];
+        for (int k = 0; k < 6; ++k) {
+          if (record.e[k] >= 0) turn_[at(record.e[k])] -= record.angle[k];
+        }
+        total_ += record.volume;
+      });
+}
+
+void Union3::add_edges() {
+  for (std::size_t e = 0; e < view_.edge_count; ++e) {
+    if ((e & 0xffff) == 0) job_.poll();
+    if (!view_.has_edge[e] || state_[e] == kSpanned) continue;
+    const Id* end = view_.edges + 2 * e;
+    const Lens lens = balls_.lens(end[0], end[1]);
+    const double turn = std::max(0.0, std::min(2.0 * kPi, turn_[e]));
+    const double disc = lens.circle * lens.circle * turn / 6.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      out_.volumes[at(end[k])] += lens.from[k] * disc;
+      out_.surface_areas[at(end[k])] += lens.from[k] * turn;
+    }
+    total_ += lens.length * disc;
+  }
+}
+
+void Union3::add_vertices() {
+  Buffer<bool> open(view_.n);
+  std::fill(open.begin(), open.end(), false);
+  Buffer<bool> joined(view_.n);
+  std::fill(joined.begin(), joined.end(), false);
+  for (std::size_t e = 0; e < view_.edge_count; ++e) {
+    if (!view_.has_edge[e]) continue;
+    for (std::size_t k = 0; k < 2; ++k) {
+      joined[at(view_.edges[2 * e + k])] = true;
+      if (state_[e] != kSpanned) open[at(view_.edges[2 * e + k])] = true;
+    }
+  }
+  for (std::size_t v = 0; v < view_.n; ++v) {
+    double& area = out_.surface_areas[v];
+    const double radius = balls_.radius(static_cast<Id>(v));
+    if (!view_.has_vertex[v] || (joined[v] && !open[v])) {
+      area = 0.0;
+    } else {
+      area = std::max(0.0, radius * (2.0 * kPi * euler_[v] * radius + area));
+      area = std::min(area, 4.0 * kPi * radius * radius);
+    }
+    const double cone = radius * area / 3.0;
+    out_.volumes[v] = std::max(0.0, out_.volumes[v] + cone);
+    total_ += cone;
+  }
+}
+
+// Each sphere's part of a void's boundary has as many pieces, less holes, as the tetrahedra,
+// triangles and edges of the void around its vertex tell.
+void Union3::finish_voids() {
+  auto add = [&](Id hollow, Id v, double sign) {
+    if (!view_.has_vertex[v]) return;
+    const double area = sign * 2.0 * kPi * balls_.square(v);
+    out_.void_areas[at(hollow)] += area;
+    out_.void_volumes[at(hollow)] -= balls_.radius(v) * area / 3.0;
+  };
+  for (std::size_t f = 0; f < view_.triangle_count; ++f) {
+    const Id t = view_.triangle_tetrahedra[2 * f];
+    if (view_.has_triangle[f] || t < 0 || view_.hollow[t] < 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) add(view_.hollow[t], view_.triangles[3 * f + k], -1.0);
+  }
+  for (std::size_t e = 0; e < view_.edge_count; ++e) {
+    if (view_.has_edge[e] || edge_hollow_[e] < 0) continue;
+    for (std::size_t k = 0; k < 2; ++k) add(edge_hollow_[e], view_.edges[2 * e + k], 1.0);
+  }
+  for (double& volume : out_.void_volumes) volume = std::max(0.0, volume);
+  for (double& area : out_.void_areas) area = std::max(0.0, area);
+}
+
+UnionOfBalls3 Union3::run() {
+  count();
+  job_.advance(0.05);
+  add_triangles();
+  add_tetrahedra();
+  add_edges();
+  add_vertices();
+  if (view_.void_count > 0) finish_voids();
+  out_.volume = total_.value();
+  return std::move(out_);
+}
+
+}  // namespace
+
+UnionOfBalls3 union3(const BallsView& view, Job& job) { return Union3(view, job).run(); }
+
+}  // namespace alphamesh

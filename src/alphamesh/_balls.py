@@ -1,0 +1,121 @@
+"""Balls at a radius: which of their simplices there are, and sizes that kernels can take."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from alphamesh._arrays import read_only
+from alphamesh.errors import ParameterError
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import BoolArray, FloatArray
+    from alphamesh.filtration import AnyFiltration
+
+__all__ = ["ball_radii", "present", "rescaled", "scaled", "unscaled"]
+
+# Coordinates that the kernels take as they are, and to which size they bring others. So
+# neither a product of four lengths nor one of two areas leaves the range of float64.
+_LARGEST, _LEAST = {2: 2.0**249, 3: 2.0**100}, {2: 2.0**-188, 3: 2.0**-100}
+_SCALED_TO = {2: 249, 3: 164}
+_LARGEST_RADIUS = 2.0**250
+
+# Squared values that differ by less, as a share of the largest square, may be in the wrong
+# order: several times what rounding can do to them.
+_CLOSE = 2e-12
+
+
+def ball_radii(weights: FloatArray | None, radius: float, count: int) -> FloatArray:
+    """Return ``sqrt(weights + radius**2)`` of each ball, 0 where there is none."""
+    if weights is None:
+        return read_only(np.full(count, max(0.0, radius)))
+    exponent = math.frexp(max(abs(radius), _root(np.abs(weights).max(initial=0.0))))[1]
+    squares = np.ldexp(weights, -2 * exponent) + _power(math.ldexp(radius, -exponent))
+    return read_only(np.ldexp(np.sqrt(np.maximum(squares, 0.0)), exponent))
+
+
+def present(filtration: AnyFiltration, radius: float) -> tuple[BoolArray, ...]:
+    """Return which rows and which simplices of each higher dimension there are at `radius`."""
+    vertex = np.zeros(len(filtration.points), dtype=np.bool_)
+    vertex[filtration.simplices[0][:, 0]] = filtration.radii[0] <= radius
+    last = _settled(filtration, radius)
+    return vertex, *(radii <= last for radii in filtration.radii[1:])
+
+
+def _settled(filtration: AnyFiltration, radius: float) -> float:
+    """Return the value from `radius` on after which none follows too closely.
+
+    Values carry rounding errors. Of two that hardly differ, the larger may truly be the
+    smaller one, and the complex at a radius in between not that of any union; the one
+    that has both differs from the true one by simplices that hardly matter.
+    """
+    weights = filtration.weights
+    heaviest = 0.0 if weights is None else float(np.abs(weights).max(initial=0.0))
+    last, found = radius, True
+    while found:
+        found = False
+        scale = max(abs(last), _root(heaviest))
+        # Over the scale: no square leaves the range of float64.
+        power = _power(last / scale) + _CLOSE if scale else 0.0
+        limit = scale * math.copysign(_root(abs(power)), power)
+        for radii in filtration.radii[1:]:
+            reached = float(radii.max(initial=last, where=radii <= limit))
+            if reached > last:
+                last, found = reached, True
+    return last
+
+
+def _root(square: Any) -> float:
+    return math.sqrt(float(square))
+
+
+def _power(radius: float) -> float:
+    return math.copysign(radius * radius, radius)
+
+
+def scaled(
+    filtration: AnyFiltration, radius: float, *, alone: bool
+) -> tuple[FloatArray, FloatArray | None, float, int]:
+    """Return points, weights and squared radius over powers of two, and the exponent.
+
+    Where all balls are `alone`, only their own size counts, and no point is looked at.
+    """
+    points, weights = filtration.points, filtration.weights
+    dimension = points.shape[1]
+    sizes = np.abs(points)
+    largest = float(sizes.max(initial=0.0))
+    least = float(sizes.min(initial=np.inf, where=sizes > 0))
+    span = max(abs(radius), 0.0 if weights is None else _root(np.abs(weights).max(initial=0.0)))
+    exponent = 0
+    if alone:
+        exponent = math.frexp(span)[1]
+    elif largest >= _LARGEST[dimension] or least < _LEAST[dimension]:
+        exponent = int(np.frexp(largest)[1]) - _SCALED_TO[dimension]
+    elif span >= _LARGEST_RADIUS:
+        exponent = int(np.frexp(span)[1]) - 250
+    if math.frexp(span)[1] - exponent > 250:
+        raise ParameterError(
+            f"a radius of {span:.6g} is too large beside coordinates as small as these; "
+            "scale the points up"
+        )
+    if exponent:
+        points = points if alone else np.ldexp(points, -exponent)
+        if weights is not None:
+            weights = np.ldexp(weights, -2 * exponent)
+    return points, weights, _power(math.ldexp(radius, -exponent)), exponent
+
+
+def rescaled(array: FloatArray, exponent: int) -> FloatArray:
+    """Return `array` times a power of two; what leaves the range becomes 0 or infinite."""
+    if exponent == 0:
+        return read_only(array)
+    with np.errstate(over="ignore", under="ignore"):
+        return read_only(np.ldexp(array, exponent))
+
+
+def unscaled(value: float, exponent: int) -> float:
+    """Return `value` times a power of two, 0 or infinite where that leaves the range."""
+    with np.errstate(over="ignore", under="ignore"):
+        return float(np.ldexp(value, exponent))

@@ -1,0 +1,95 @@
+"""Measures of unions of discs and of balls of different sizes."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+import alphamesh as am
+from alphamesh.unions import union_of_balls
+from union_oracle import Balls
+from union_samples import area_of_discs, measures, sampled, volume_of_balls
+from weighted_samples import WEIGHTS
+
+PI = math.pi
+
+
+@pytest.mark.parametrize("gap", [0.1, 0.59, 0.6, 0.61, 0.9, 1.0, 1.3, 1.6 - 1e-9, 1.6, 2.0])
+def test_two_balls_of_different_size(gap):
+    big, small = 1.1, 0.5
+    ball = 4 / 3 * PI * (big**3 + (small**3 if gap > big - small else 0))
+    lens = 0.0
+    if big - small < gap < big + small:
+        square = gap**2 + 2 * gap * (big + small) - 3 * (big - small) ** 2
+        lens = PI * (big + small - gap) ** 2 * square / (12 * gap)
+    cx = am.AlphaComplex([[0, 0, 0], [0, gap, 0]], weights=[big**2, small**2])
+    assert cx.union(0).volume == pytest.approx(ball - lens, rel=1e-12)
+    assert cx.union(0).ball_radii == pytest.approx([big, small], rel=1e-15)
+    # The same balls, of other weights at another radius.
+    grown = am.AlphaComplex([[0, 0, 0], [0, gap, 0]], weights=[big**2 + 1, small**2 + 1])
+    assert grown.union(-1).volume == pytest.approx(ball - lens, rel=1e-12)
+    discs = am.AlphaComplex([[0, 0], [0, gap]], weights=[big**2, small**2]).union()
+    area = area_of_discs([(0, 0), (0, gap)], [big, small])
+    assert discs.area == pytest.approx(area, rel=1e-9)
+
+
+def test_three_balls_of_different_size():
+    centres, radii = [(0, 0), (1.3, 0.1), (0.4, 0.9)], [1.1, 0.7, 0.8]
+    points = np.column_stack((centres, np.zeros(3)))
+    found = am.AlphaComplex(points, weights=np.square(radii)).union(0)
+    kinks = []
+    for i, j in itertools.combinations(range(3), 2):
+        length = math.dist(centres[i], centres[j])
+        near = (length**2 + radii[i] ** 2 - radii[j] ** 2) / (2 * length)
+        kinks.append(math.sqrt(radii[i] ** 2 - near**2))
+    square = found.filtration.radii[2][0]
+    kinks.append(math.sqrt(-square * abs(square)))  # where the three spheres meet
+    assert found.volume == pytest.approx(volume_of_balls(centres, radii, kinks), rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", sorted(WEIGHTS))
+@pytest.mark.parametrize("seed", range(3))
+def test_weights_in_fifty_digits(kind, seed):
+    rng = np.random.default_rng(seed)
+    points = rng.random((16, 3))
+    built = am.AlphaComplex(points, weights=WEIGHTS[kind](rng, 16, 0.4)).filtration
+    critical = np.unique(np.concatenate(built.radii))
+    for radius in rng.choice((critical[1:] + critical[:-1]) / 2, 4):
+        found, exact = union_of_balls(built, radius), Balls(built, radius)
+        size = found.ball_radii.max()
+        assert found.volume == pytest.approx(exact.volume, rel=1e-11)
+        assert found.ball_volumes == pytest.approx(exact.volumes, abs=1e-11 * size**3)
+        assert found.ball_surface_areas == pytest.approx(exact.areas, abs=1e-11 * size**2)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("kind", sorted(WEIGHTS))
+def test_weights_equal_sampling(dimension, kind):
+    rng = np.random.default_rng(3)
+    points = rng.random((20, dimension))
+    weights = WEIGHTS[kind](rng, 20, 0.3)
+    cx = am.AlphaComplex(points, weights=weights)
+    for radius in (0.0, 0.15, -0.1):
+        found = cx.union(radius)
+        content, _, parts, borders = measures(found)
+        power = radius * abs(radius)
+        if (weights + power <= 0).all():
+            assert content == parts.sum() == borders.sum() == 0
+            continue
+        total, each, error = sampled(points, weights, power, 100_000, seed=2)
+        error += 1e-9  # balls too small to be hit
+        assert content == pytest.approx(total, abs=4 * error)
+        assert parts == pytest.approx(each, abs=4 * error)
+        assert not parts[cx.hidden].any()
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_equal_weights_are_a_radius(dimension):
+    points = np.random.default_rng(3).random((200, dimension))
+    plain = measures(am.AlphaComplex(points).union(0.15))
+    weighted = measures(am.AlphaComplex(points, weights=np.full(200, 0.15**2)).union(0.0))
+    for a, b in zip(plain, weighted, strict=True):
+        assert b == pytest.approx(a, rel=1e-9, abs=1e-12)
