@@ -23,6 +23,8 @@ __all__ = [
     "MissingLibraryError",
     "NonFiniteError",
     "ParameterError",
+    "PeriodicError",
+    "PeriodsError",
     "UnweightedOnlyError",
     "WeightsError",
 ]
@@ -98,6 +100,14 @@ class EmptyMaskError(CloudError):
 
 class ParameterError(AlphameshError, ValueError):
     """A parameter outside the values that it can take."""
+
+
+class PeriodsError(ParameterError):
+    """Side lengths that no periodic box can have."""
+
+
+class PeriodicError(AlphameshError, TypeError):
+    """Something that clouds in open space have, asked of a cloud in a periodic box."""
 
 
 class DimensionError(AlphameshError, TypeError):
