@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "periodic_check.hpp"
 #include "periodic_values.hpp"
 #include "quotient.hpp"
 #include "reach.hpp"
@@ -91,6 +92,14 @@ nb::tuple periodic_star(const Rows3& high, const Rows3& low, const Values& weigh
                         three(star.reach.hi), star.reach.open);
 }
 
+PeriodicBox box_of(const Rows3& anchors, const Offsets& shifts, const nb::object& weights,
+                   const Values& periods, int exponent) {
+  if (periods.shape(0) != 3) throw nb::value_error("three periods");
+  const double* w = weights.is_none() ? nullptr : nb::cast<Values>(weights).data();
+  const double* side = periods.data();
+  return {anchors.data(), shifts.data(), w, {side[0], side[1], side[2]}, exponent};
+}
+
 nb::object offsets_array(Buffer<std::int8_t>&& offsets, std::size_t vertices) {
   auto* owner = new Buffer<std::int8_t>(std::move(offsets));
   nb::capsule capsule(owner, [](void* p) noexcept { delete static_cast<Buffer<std::int8_t>*>(p); });
@@ -104,11 +113,9 @@ nb::tuple periodic_complex(const Numbers& rows, const Offsets& offsets, std::siz
                            const nb::object& weights, const Values& periods,
                            int exponent, int threads) {
   const std::size_t count = cells.shape(0), columns = cells.shape(1);
-  if (periods.shape(0) != 3 || columns < 2 || columns > 4) throw nb::value_error("shape");
+  if (columns < 2 || columns > 4) throw nb::value_error("cells of 2 to 4 vertices");
   const Copies copies{rows.data(), offsets.data(), base, anchors.shape(0)};
-  PeriodicBox box{anchors.data(), shifts.data(),
-                  weights.is_none() ? nullptr : nb::cast<Values>(weights).data(),
-                  {periods.data()[0], periods.data()[1], periods.data()[2]}, exponent};
+  const PeriodicBox box = box_of(anchors, shifts, weights, periods, exponent);
   Job job(useful_threads(threads, count));
   std::vector<Layer> layers;
   std::vector<Buffer<double>> radii;
@@ -129,6 +136,24 @@ nb::tuple periodic_complex(const Numbers& rows, const Offsets& offsets, std::siz
   return nb::make_tuple(out, array(std::move(sides), 2));
 }
 
+// Per facet, see check_facets().
+nb::object periodic_check(const Ids& cells, const Offsets& offsets, const Ids& faces,
+                          const Ids& facet_cells, const Rows3& anchors, const Offsets& shifts,
+                          const nb::object& weights, const Values& periods, int threads) {
+  const std::size_t count = cells.shape(0), columns = cells.shape(1);
+  const PeriodicCells view{cells.data(), offsets.data(), faces.data(), count, facet_cells.data(),
+                           facet_cells.shape(0)};
+  const PeriodicBox box = box_of(anchors, shifts, weights, periods, 0);
+  Job job(useful_threads(threads, count));
+  Buffer<std::int8_t> out;
+  run_watched(job, count, nb::none(), [&] {
+    if (columns == 2) out = check_facets<1>(box, view, job);
+    if (columns == 3) out = check_facets<2>(box, view, job);
+    if (columns == 4) out = check_facets<3>(box, view, job);
+  });
+  return array(std::move(out));
+}
+
 }  // namespace
 
 void bind_periodic(nb::module_& m) {
@@ -137,6 +162,9 @@ void bind_periodic(nb::module_& m) {
   m.def("periodic_complex", &periodic_complex, nb::arg("rows"), nb::arg("offsets"),
         nb::arg("base"), nb::arg("cells"), nb::arg("anchors"), nb::arg("shifts"),
         nb::arg("weights").none(), nb::arg("periods"), nb::arg("exponent"), nb::arg("threads"));
+  m.def("periodic_check", &periodic_check, nb::arg("cells"), nb::arg("offsets"), nb::arg("faces"),
+        nb::arg("facet_cells"), nb::arg("anchors"), nb::arg("shifts"), nb::arg("weights").none(),
+        nb::arg("periods"), nb::arg("threads"));
 }
 
 }  // namespace alphamesh

@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from alphamesh.io.meshes import MESH_FORMATS, Mesh, write_mesh
     from alphamesh.io.points import read_points, read_table
     from alphamesh.outline import Rings
+    from alphamesh.periodic import PeriodicFiltration, PeriodicPersistence, PeriodicShape
+    from alphamesh.periodic_complex import PeriodicComplex
     from alphamesh.persistence import Persistence, persistence
     from alphamesh.planar import Selection
     from alphamesh.queries import Nearest
@@ -87,6 +89,10 @@ __all__ = [
     "Mesh",
     "Nearest",
     "Nearest3D",
+    "PeriodicComplex",
+    "PeriodicFiltration",
+    "PeriodicPersistence",
+    "PeriodicShape",
     "Persistence",
     "PointTable",
     "RadiusChoice",
@@ -150,6 +156,8 @@ _HOMES = {
     "io.meshes": ("MESH_FORMATS", "Mesh", "write_mesh"),
     "io.points": ("read_points", "read_table"),
     "outline": ("Rings",),
+    "periodic": ("PeriodicFiltration", "PeriodicPersistence", "PeriodicShape"),
+    "periodic_complex": ("PeriodicComplex",),
     "persistence": ("Persistence", "persistence"),
     "planar": ("Selection",),
     "queries": ("Nearest",),

@@ -106,7 +106,7 @@ class PeriodsError(ParameterError):
     """Side lengths that no periodic box can have."""
 
 
-class PeriodicError(AlphameshError, TypeError):
+class PeriodicError(AlphameshError, AttributeError):
     """Something that clouds in open space have, asked of a cloud in a periodic box."""
 
 

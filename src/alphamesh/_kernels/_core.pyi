@@ -119,6 +119,17 @@ def periodic_complex(
     ],
     NDArray[np.int32],
 ]: ...
+def periodic_check(
+    cells: NDArray[np.int32],
+    offsets: NDArray[np.int8],
+    faces: NDArray[np.int32],
+    facet_cells: NDArray[np.int32],
+    anchors: NDArray[np.float64],
+    shifts: NDArray[np.int8],
+    weights: NDArray[np.float64] | None,
+    periods: NDArray[np.float64],
+    threads: int,
+) -> NDArray[np.int8]: ...
 def component_count(n: int, pairs: NDArray[np.int32]) -> int: ...
 def triangle_edges2(
     points: NDArray[np.float64],

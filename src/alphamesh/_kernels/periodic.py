@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
 
-__all__ = ["Layer", "Star", "periodic_complex", "periodic_star"]
+__all__ = ["Layer", "Star", "periodic_check", "periodic_complex", "periodic_star"]
 
 
 class Star(NamedTuple):
@@ -154,7 +154,51 @@ def periodic_complex(  # noqa: PLR0913, PLR0917 (the arrays of a cloud)
     )
     made = []
     for k, layer in enumerate(layers):
-        vertices, offsets, faces, radii = (read_only(array) for array in layer)
-        tables = vertices.reshape(-1, k + 1), offsets, faces.reshape(-1, k + 1), radii
-        made.append(Layer(*tables))
+        for array in layer:
+            read_only(array)
+        rows, moves, faces, radii = layer
+        made.append(Layer(rows.reshape(-1, k + 1), moves, faces.reshape(-1, k + 1), radii))
     return made, read_only(np.asarray(cofaces))
+
+
+def periodic_check(  # noqa: PLR0913, PLR0917 (the arrays of a complex)
+    cells: IntArray,
+    offsets: KindArray,
+    faces: IntArray,
+    facet_cells: IntArray,
+    anchors: FloatArray,
+    shifts: KindArray,
+    weights: FloatArray | None,
+    periods: FloatArray,
+    threads: int | None = None,
+) -> KindArray:
+    """Tell what is wrong with the cells of each facet of a periodic triangulation, exactly.
+
+    Parameters
+    ----------
+    cells, faces : (k, D + 1) int32
+    offsets : (k, D + 1, 3) int8
+    facet_cells : (m, 2) int32
+    anchors, shifts, weights, periods
+        See :func:`periodic_complex`.
+    threads : int, optional
+
+    Returns
+    -------
+    (m,) int8
+        0 if nothing is, 1 if a cell is flat, 2 if both lie on the same side, 3 if the far
+        vertex of one lies in the circumsphere of the other.
+    """
+    return read_only(
+        _core.periodic_check(
+            cells,
+            np.ascontiguousarray(offsets).reshape(-1, 3),
+            faces,
+            facet_cells,
+            anchors,
+            shifts,
+            weights,
+            periods,
+            resolve_threads(threads),
+        )
+    )

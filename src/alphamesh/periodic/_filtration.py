@@ -9,21 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
-from alphamesh._kernels.periodic import Layer, Star, periodic_complex, periodic_star
 from alphamesh._kernels.topology import persistence3
-from alphamesh.errors import CoordinateRangeError, DimensionError, rows_text
-from alphamesh.periodic_box import as_periods, box_cloud
-from alphamesh.points import as_cloud, at_positions, refuse_overflow, warn_of_degrees
+from alphamesh.errors import DimensionError
+from alphamesh.points import at_positions
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
-    from alphamesh.periodic_box import BoxCloud, Copies
 
-__all__ = ["PeriodicFiltration", "periodic_filtration"]
-
-# Of random points few spheres reach further, in mean distances; what fails is done again.
-_HALO = 3.0
+__all__ = ["PeriodicFiltration"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -53,7 +47,8 @@ class PeriodicFiltration(Record):
         The lowest row at the place of row i in the box: i itself unless it is a duplicate.
     simplices : tuple of (m_k, k + 1) int32
         Vertices, edges, triangles and, in space, tetrahedra: rows of `points`, ascending
-        within a simplex by row, then by offset. Simplices come in that order, too.
+        within a simplex by row, then by offset. Simplices come in the order of their rows,
+        then of their offsets.
     offsets : tuple of (m_k, k + 1, d) int8
         How many periods from its position each vertex lies: -1, 0 or 1. The first vertex of
         each simplex has offset 0.
@@ -94,7 +89,9 @@ class PeriodicFiltration(Record):
     @property
     def dimension(self) -> int:
         """Dimension of the cloud and its copies together; -1 if there are no points."""
-        return max((k for k in range(len(self.simplices)) if len(self.simplices[k])), default=-1)
+        return max(
+            (k for k in range(len(self.simplices)) if len(self.simplices[k])), default=-1
+        )
 
     @property
     def periodic(self) -> BoolArray:
@@ -104,7 +101,8 @@ class PeriodicFiltration(Record):
     @property
     def lattice(self) -> FloatArray:
         """The periods as numbers, 0 for open directions, ``(d,)`` float64."""
-        return np.array([side or 0.0 for side in self.periods])
+        sides: FloatArray = np.array([side or 0.0 for side in self.periods])
+        return sides
 
     @property
     def triangle_edges(self) -> IntArray:
@@ -123,7 +121,7 @@ class PeriodicFiltration(Record):
         """Whether it is a simplicial complex: vertices tell simplices apart.
 
         If not, because there are too few points for the box, that of two or three boxes in
-        a row is: see :meth:`tiled`.
+        a row is: see :meth:`alphamesh.PeriodicComplex.tiled`.
         """
         for rows in self.simplices[1:]:
             if (rows[:, 1:] == rows[:, :-1]).any():
@@ -147,7 +145,8 @@ class PeriodicFiltration(Record):
         (m, k + 1, d) float64
         """
         rows, offsets = self.simplices[dimension][numbers], self.offsets[dimension][numbers]
-        return self.positions.take(rows, axis=0) + offsets * self.lattice
+        places: FloatArray = self.positions.take(rows, axis=0) + offsets * self.lattice
+        return places
 
     @cached_property
     def cell_sizes(self) -> FloatArray:
@@ -158,7 +157,9 @@ class PeriodicFiltration(Record):
         if d == 2:
             sizes = np.abs(arms[:, 0, 0] * arms[:, 1, 1] - arms[:, 0, 1] * arms[:, 1, 0]) / 2
         else:
-            sizes = np.abs(np.einsum("ij,ij->i", arms[:, 0], np.cross(arms[:, 1], arms[:, 2]))) / 6
+            sizes = (
+                np.abs(np.einsum("ij,ij->i", arms[:, 0], np.cross(arms[:, 1], arms[:, 2]))) / 6
+            )
         return read_only(sizes)
 
     @cached_property
@@ -175,24 +176,6 @@ class PeriodicFiltration(Record):
     def box_size(self) -> float:
         """Area of the box in the plane, volume in space; infinite if it is open."""
         return float(np.prod([np.inf if side is None else side for side in self.periods]))
-
-    def tiled(self, repeats: Any) -> PeriodicFiltration:
-        """Return the filtration of several boxes in a row, as one larger box.
-
-        Parameters
-        ----------
-        repeats : int or sequence of int
-            How many boxes in each direction, 1 or more; 1 where it is open.
-
-        Returns
-        -------
-        PeriodicFiltration
-            Its points are the rows in the first box, then those in the next, the last
-            direction fastest.
-        """
-        from alphamesh.periodic_tiling import tiled
-
-        return tiled(self, repeats)
 
     def pairs(
         self, *, threads: int | None = None, progress: Progress | None = None
@@ -223,166 +206,6 @@ class PeriodicFiltration(Record):
         facts = ", ".join(f"{len(rows):,} {name}" for rows, name in counts)
         sides = " x ".join("open" if side is None else f"{side:.6g}" for side in self.periods)
         return f"<PeriodicFiltration, {sides}: {facts}>"
-
-
-def periodic_filtration(
-    points: Any,
-    periods: Any,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
-) -> PeriodicFiltration:
-    """Compute the alpha filtration of a periodic box; every decision is exact.
-
-    Parameters
-    ----------
-    points : array-like of shape (n, 2) or (n, 3)
-        See :func:`alphamesh.points.as_cloud`. Points outside of the box stand for their
-        copies inside. Points at the same place of the box are merged.
-    periods : sequence of float or None
-        The side length of the box in each direction, in the units of the points; None where
-        it is open.
-    threads : int, optional
-        Threads to use; by default one for each usable CPU. The result does not depend
-        on it.
-    progress : callable, optional
-        Called with the fraction that is done, from 0 to 1, about ten times a second.
-
-    Returns
-    -------
-    PeriodicFiltration
-
-    Raises
-    ------
-    PeriodsError
-        If `periods` are not the sides of a box that has a periodic direction.
-    CloudShapeError, NonFiniteError, CoordinateRangeError, CloudTooLargeError
-        If there is no exact filtration of such points; the message names the rows.
-    ParameterError
-        If `threads` or `progress` is not what it must be.
-
-    Notes
-    -----
-    A copy of a point lies whole periods away, which float64 cannot hold in general: the
-    kernel works with sums of two float64, which hold it exactly. Points are triangulated
-    with the copies in a margin around the box. No copy of a vertex v lies in a circumsphere
-    through v, so that its centre is at most half a period away from v in each direction:
-    a margin of one period always suffices. A narrower one does if no sphere of a cell at a
-    point in the box reaches beyond it, as then no further copy lies in one; otherwise all
-    is done again, with a wider margin.
-    """
-    cloud = as_cloud(points)
-    warn_of_degrees(cloud)
-    d = cloud.points.shape[1]
-    sides = as_periods(periods, d)
-    if len(cloud) == 0:
-        return _empty(cloud.points, sides, cloud.crs)
-    box = box_cloud(cloud.points, sides)
-    copies, star = _certain_star(box, progress)
-    layers, cofaces = periodic_complex(
-        copies.rows,
-        copies.offsets,
-        len(box.rows),
-        star.cells,
-        box.anchors,
-        box.shifts,
-        None,
-        box.periods,
-        box.exponent,
-        threads,
-    )
-    refuse_overflow(layers[-1].rows, layers[-1].radii)
-    layers = _padded(layers, d)
-    positions = np.ldexp(box.anchors + box.shifts * box.periods, -box.exponent)
-    return PeriodicFiltration(
-        cloud.points,
-        read_only(np.ascontiguousarray(positions[:, :d])),
-        sides,
-        box.representative,
-        tuple(layer.rows for layer in layers),
-        tuple(read_only(layer.offsets[:, :, :d]) for layer in layers),
-        tuple(layer.radii for layer in layers),
-        tuple(layer.faces for layer in layers),
-        cofaces if star.dimension == d else _none(2),
-        None,
-        read_only(np.empty(0, dtype=np.int32)),
-        cloud.crs,
-    )
-
-
-def _certain_star(box: BoxCloud, progress: Progress | None) -> tuple[Copies, Star]:
-    """Return all cells at points in the box, of a margin that is wide enough."""
-    periods, halo = box.periods, _first_halo(box)
-    for _ in range(2):
-        copies, star = _star(box, halo, progress)
-        if (halo >= periods).all():
-            return copies, star
-        # Beyond what has been rounded in saying who is in the margin.
-        reached = np.maximum(-star.lo, star.hi - periods) + np.ldexp(periods, -50)
-        if not star.open and ((reached <= halo) | (halo >= periods)).all():
-            return copies, star
-        # Where points are added, spheres of cells at a point in the box shrink together: these
-        # reaches will do.
-        wider = np.maximum(halo, reached * (1 + 2.0**-40))
-        halo = periods if star.open else np.minimum(wider, periods)
-    return _star(box, periods, progress)
-
-
-def _first_halo(box: BoxCloud) -> FloatArray:
-    """Return a margin that is likely to do; one period where nothing else is sure to."""
-    rows, periods = box.rows, box.periods
-    used = periods > 0
-    flat = np.ptp(box.anchors, axis=0) == 0
-    if not (used | flat).all():  # cells at an open border are as long as the box
-        return periods
-    spacing = (np.prod(periods[used]) / len(rows)) ** (1 / used.sum())
-    return np.where(used, np.minimum(_HALO * spacing, periods), 0.0)
-
-
-def _star(box: BoxCloud, halo: FloatArray, progress: Progress | None) -> tuple[Copies, Star]:
-    copies = box.copies(halo)
-    weights = np.zeros(len(copies.rows))
-    star = periodic_star(
-        copies.high, copies.low, weights, box.unit, len(box.rows), progress
-    )
-    return copies, star
-
-
-def _padded(layers: list[Layer], dimension: int) -> list[Layer]:
-    """Return layers of all dimensions, empty ones if the cloud has fewer."""
-    missing = range(len(layers), dimension + 1)
-    return layers + [
-        Layer(
-            _none(k + 1),
-            read_only(np.empty((0, k + 1, 3), dtype=np.int8)),
-            _none(k + 1),
-            read_only(np.empty(0)),
-        )
-        for k in missing
-    ]
-
-
-def _none(columns: int) -> IntArray:
-    return read_only(np.empty((0, columns), dtype=np.int32))
-
-
-def _empty(points: FloatArray, sides: tuple[float | None, ...], crs: Any) -> PeriodicFiltration:
-    d = points.shape[1]
-    layers = _padded([], d)
-    return PeriodicFiltration(
-        points,
-        points,
-        sides,
-        read_only(np.empty(0, dtype=np.int32)),
-        tuple(layer.rows for layer in layers),
-        tuple(read_only(layer.offsets[:, :, :d]) for layer in layers),
-        tuple(layer.radii for layer in layers),
-        tuple(layer.faces for layer in layers),
-        _none(2),
-        None,
-        read_only(np.empty(0, dtype=np.int32)),
-        crs,
-    )
 
 
 def _pairs_of(

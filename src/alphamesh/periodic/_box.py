@@ -119,7 +119,8 @@ class BoxCloud(Record):
     def rows(self) -> IntArray:
         """The rows that stand for themselves, ascending, ``(m,)`` int32."""
         rows = np.arange(len(self.representative), dtype=np.int32)
-        return rows[self.representative == rows]
+        own: IntArray = rows[self.representative == rows]
+        return own
 
     def copies(self, halo: FloatArray) -> Copies:
         """Return the points and all copies that lie at most `halo` beyond the box.
