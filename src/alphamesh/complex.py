@@ -110,10 +110,7 @@ class AlphaComplex(Exports):
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> Self:
-        """Return an :class:`~alphamesh.AlphaComplex3D` if the points have three columns.
-
-        With `periods`, return a :class:`~alphamesh.PeriodicComplex`.
-        """
+        """Return the class that the columns of the points, or `periods`, ask for."""
         cloud = as_cloud(points, weights=weights)
         if periods is not None:
             from alphamesh.periodic_complex import periodic_complex

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
-from alphamesh import export
 from alphamesh._arrays import read_only
 from alphamesh.errors import PeriodicError
+from alphamesh.export import Exports, write_arrays
 from alphamesh.periodic import (
     PeriodicShape,
     choose_periodic_radius,
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["PeriodicComplex", "periodic_complex"]
 
 
-class PeriodicComplex:
+class PeriodicComplex(Exports):
     """The alpha complex of a periodic box; what ``AlphaComplex(points, periods=...)`` returns.
 
     Notes
@@ -49,6 +49,8 @@ class PeriodicComplex:
     """
 
     __slots__ = ("__weakref__", "_filtration", "_persistence")
+
+    _filtration: PeriodicFiltration
 
     def __init__(self, filtration: PeriodicFiltration) -> None:
         self._filtration = filtration
@@ -78,6 +80,16 @@ class PeriodicComplex:
     def crs(self) -> Any:
         """The coordinate reference system that came with the points, or None."""
         return self._filtration.crs
+
+    @property
+    def weights(self) -> FloatArray | None:
+        """Squared radii of the balls, ``(n,)`` float64; None for balls of equal size."""
+        return self._filtration.weights
+
+    @property
+    def hidden(self) -> IntArray:
+        """Rows that heavier points leave no part of the power diagram, ``(h,)`` int32."""
+        return self._filtration.hidden
 
     @property
     def representative(self) -> IntArray:
@@ -129,7 +141,9 @@ class PeriodicComplex:
             If `repeats` are not such numbers.
         """
         points, periods = tiled_points(self.positions, self.periods, repeats)
-        return periodic_complex(points, periods)
+        boxes = len(points) // max(1, len(self.points))
+        weights = None if self.weights is None else np.tile(self.weights, boxes)
+        return periodic_complex(points, periods, weights=weights)
 
     def persistence(
         self, *, threads: int | None = None, progress: Progress | None = None
@@ -216,7 +230,7 @@ class PeriodicComplex:
                 "vertices of others, which a simplex tree cannot hold; repeat the box: "
                 "tiled(2), or tiled(3) if that is not enough"
             )
-        return export.to_gudhi(self._filtration, squared=squared)
+        return super().to_gudhi(squared=squared)
 
     def to_numpy(self) -> dict[str, np.ndarray[Any, Any]]:
         """Return points, simplices, offsets and radii as a plain dict of arrays.
@@ -228,14 +242,14 @@ class PeriodicComplex:
             (d,), infinite where the box is open, and ``edge_offsets``, ``triangle_offsets``
             and ``tetrahedron_offsets`` (m_k, k + 1, d) int8.
         """
-        return export.to_numpy(self._filtration) | _arrays_of(self._filtration)
+        return super().to_numpy() | _arrays_of(self._filtration)
 
     def save_npz(self, path: str | os.PathLike[str]) -> None:
         """Write :meth:`to_numpy` into one file, to be read by ``numpy.load``.
 
         Parameters and errors are those of :func:`alphamesh.export.write_npz`.
         """
-        export.write_arrays(self.to_numpy(), path)
+        write_arrays(self.to_numpy(), path)
 
     if not TYPE_CHECKING:
 
@@ -266,6 +280,7 @@ def periodic_complex(
     points: Any,
     periods: Any,
     *,
+    weights: Any = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> PeriodicComplex:
@@ -274,7 +289,9 @@ def periodic_complex(
     Parameters and errors are those of :func:`alphamesh.periodic.periodic_filtration`.
     """
     return PeriodicComplex(
-        periodic_filtration(points, periods, threads=threads, progress=progress)
+        periodic_filtration(
+            points, periods, weights=weights, threads=threads, progress=progress
+        )
     )
 
 

@@ -117,11 +117,9 @@ def _check_facets(result: PeriodicFiltration) -> None:
     require(found == (cells >= 0).sum(axis=1), "facet_cells: not those")
     if result.periodic.all():
         require(found == 2, "facet_cells: a facet of a torus with one cell")
-    box = box_cloud(result.points, result.periods)
+    box = box_cloud(result.points, result.periods, result.weights)
     offsets = np.zeros((*result.simplices[d].shape, 3), dtype=np.int8)
     offsets[:, :, : result.points.shape[1]] = result.offsets[d]
-    scale = 2 * box.exponent
-    weights = None if result.weights is None else np.ldexp(result.weights, scale)
     verdict = periodic_check(
         result.simplices[d],
         offsets,
@@ -129,7 +127,7 @@ def _check_facets(result: PeriodicFiltration) -> None:
         cells,
         box.anchors,
         box.shifts,
-        weights,
+        box.weights,
         box.periods,
     )
     require(verdict != 1, "facets: of a flat cell")

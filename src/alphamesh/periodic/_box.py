@@ -102,10 +102,12 @@ class BoxCloud(Record):
     periods : (3,) float64
         Zero where the box is open.
     representative : (n,) int32
-        The lowest row that lies at the same place of the box.
+        The lowest row of the heaviest that lie at the same place of the box.
     exponent : int
     unit : float
-        A power of two that all numbers are multiples of.
+        A power of two that all numbers are multiples of, weights of its square.
+    weights : (n,) float64 or None
+        Scaled by ``4**exponent``.
     """
 
     anchors: FloatArray
@@ -114,6 +116,7 @@ class BoxCloud(Record):
     representative: IntArray
     exponent: int
     unit: float
+    weights: FloatArray | None = None
 
     @property
     def rows(self) -> IntArray:
@@ -156,7 +159,11 @@ class BoxCloud(Record):
         return Copies(rows.take(place), offset, high, low)
 
 
-def box_cloud(points: FloatArray, periods: tuple[float | None, ...]) -> BoxCloud:
+def box_cloud(
+    points: FloatArray,
+    periods: tuple[float | None, ...],
+    weights: FloatArray | None = None,
+) -> BoxCloud:
     """Put points into a periodic box, without rounding.
 
     Parameters
@@ -164,6 +171,7 @@ def box_cloud(points: FloatArray, periods: tuple[float | None, ...]) -> BoxCloud
     points : (n, 2) or (n, 3) float64
     periods : tuple of float or None
         From :func:`as_periods`.
+    weights : (n,) float64, optional
 
     Raises
     ------
@@ -193,14 +201,37 @@ def box_cloud(points: FloatArray, periods: tuple[float | None, ...]) -> BoxCloud
     exponent, unit = _scale(anchors, lengths)
     anchors, lengths = np.ldexp(anchors, exponent), np.ldexp(lengths, exponent)
     shifts = ((anchors < 0) & (lengths > 0)).astype(np.int8)
+    if weights is not None:
+        weights, unit = _scaled_weights(weights, exponent, unit)
     return BoxCloud(
         read_only(anchors),
         read_only(shifts),
         read_only(lengths),
-        _representatives(anchors, shifts * lengths),
+        _representatives(anchors, shifts * lengths, weights),
         exponent,
         unit,
+        weights,
     )
+
+
+def _scaled_weights(
+    weights: FloatArray, exponent: int, unit: float
+) -> tuple[FloatArray, float]:
+    """Return weights in scaled units, and a unit whose square they are multiples of."""
+    used = weights != 0
+    first = np.where(used, np.frexp(weights)[1] + 2 * exponent, 0)
+    last = np.where(used, last_digits(np.abs(weights)) + 2 * exponent, 0)
+    far = used & ((first > 2 * _TOP) | (last < 2 * _BOTTOM))
+    if far.any():
+        rows = np.flatnonzero(far)
+        raise CoordinateRangeError(
+            "weights too large or too small beside the box for exact arithmetic in "
+            f"{rows_text(rows[:6], total=len(rows))} of {len(weights):,}; a weight is a "
+            "squared radius, in squared units of the points",
+            rows=rows[:6],
+        )
+    half = int(last.min(where=used, initial=0)) // 2
+    return read_only(np.ldexp(weights, 2 * exponent)), min(unit, float(np.ldexp(1.0, half)))
 
 
 def _scale(anchors: FloatArray, lengths: FloatArray) -> tuple[int, float]:
@@ -225,14 +256,20 @@ def _scale(anchors: FloatArray, lengths: FloatArray) -> tuple[int, float]:
     return exponent, float(np.ldexp(1.0, bottom + exponent))
 
 
-def _representatives(anchors: FloatArray, moves: FloatArray) -> IntArray:
-    """Return the lowest row at the same place; sums of two in normal form tell places apart."""
+def _representatives(
+    anchors: FloatArray, moves: FloatArray, weights: FloatArray | None
+) -> IntArray:
+    """Return the lowest row at the same place, of the heaviest there.
+
+    Sums of two numbers in normal form tell places apart.
+    """
     high, low = _two_sum(anchors, moves)
     keys = np.hstack((high, low)) if low.any() else high
     keys = keys + 0.0  # no negative zeros
-    order = np.lexsort(keys.T)
+    sorted_by = keys.T if weights is None else np.vstack((-weights, keys.T))
+    order = np.lexsort(sorted_by)
     ordered = keys.take(order, axis=0)
-    fresh = np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))[: len(order)]
+    fresh = np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))
     group = np.cumsum(fresh) - 1
     # A stable sort leaves the lowest row of each group first.
     representative = np.empty(len(order), dtype=np.int32)

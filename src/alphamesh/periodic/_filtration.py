@@ -10,8 +10,9 @@ import numpy as np
 
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels.topology import persistence3
+from alphamesh._weights import hidden_text
 from alphamesh.errors import DimensionError
-from alphamesh.points import at_positions
+from alphamesh.points import at_positions, births_of_rows
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
@@ -61,8 +62,10 @@ class PeriodicFiltration(Record):
     facet_cells : (m, 2) int32
         The one or two cells of each facet, -1 for none, which is there at the border of
         open directions alone.
+    crs : pyproj.CRS or None
+        The coordinate reference system of the points, if they came with one.
     weights : (n,) float64 or None
-        Squared radii of balls at radius zero.
+        Squared radii of balls at radius zero; radii are then signed roots.
     hidden : (h,) int32
         Rows of weighted points that are in no simplex, ascending.
 
@@ -82,9 +85,9 @@ class PeriodicFiltration(Record):
     radii: tuple[FloatArray, ...]
     faces: tuple[IntArray, ...]
     facet_cells: IntArray
+    crs: Any
     weights: FloatArray | None
     hidden: IntArray
-    crs: Any = None
 
     @property
     def dimension(self) -> int:
@@ -205,7 +208,7 @@ class PeriodicFiltration(Record):
         counts = zip(self.simplices, names, strict=False)
         facts = ", ".join(f"{len(rows):,} {name}" for rows, name in counts)
         sides = " x ".join("open" if side is None else f"{side:.6g}" for side in self.periods)
-        return f"<PeriodicFiltration, {sides}: {facts}>"
+        return f"<PeriodicFiltration, {sides}: {facts}{hidden_text(self.hidden)}>"
 
 
 def _pairs_of(
@@ -230,6 +233,9 @@ def _pairs_of(
         radii[3] if cells else np.empty(0),
         threads,
         progress,
+        births=births_of_rows(
+            filtration.weights, simplices[0], radii[0], len(filtration.points)
+        ),
     )
     components = at_positions(components, simplices[0], len(filtration.points))
     return (components, loops, voids) if space else (components, loops)

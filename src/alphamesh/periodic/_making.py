@@ -8,9 +8,10 @@ import numpy as np
 
 from alphamesh._arrays import read_only
 from alphamesh._kernels.periodic import Layer, Star, periodic_complex, periodic_star
+from alphamesh._weights import equal_weight, nothing_hidden, shifted_radii
 from alphamesh.periodic._box import as_periods, box_cloud
 from alphamesh.periodic._filtration import PeriodicFiltration
-from alphamesh.points import as_cloud, refuse_overflow, warn_of_degrees
+from alphamesh.points import Cloud, as_cloud, refuse_overflow, warn_of_degrees
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
@@ -27,6 +28,7 @@ def periodic_filtration(
     points: Any,
     periods: Any,
     *,
+    weights: Any = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> PeriodicFiltration:
@@ -40,6 +42,8 @@ def periodic_filtration(
     periods : sequence of float or None
         The side length of the box in each direction, in the units of the points; None where
         it is open.
+    weights : array-like of shape (n,), optional
+        Squared radii of balls at radius zero; see :func:`alphamesh.filtration`.
     threads : int, optional
         Threads to use; by default one for each usable CPU. The result does not depend
         on it.
@@ -56,6 +60,8 @@ def periodic_filtration(
         If `periods` are not the sides of a box that has a periodic direction.
     CloudShapeError, NonFiniteError, CoordinateRangeError, CloudTooLargeError
         If there is no exact filtration of such points; the message names the rows.
+    WeightsError
+        If there is not one finite weight for each point.
     ParameterError
         If `threads` or `progress` is not what it must be.
 
@@ -69,13 +75,15 @@ def periodic_filtration(
     point in the box reaches beyond it, as then no further copy lies in one; otherwise all
     is done again, with a wider margin.
     """
-    cloud = as_cloud(points)
+    cloud = as_cloud(points, weights=weights)
     warn_of_degrees(cloud)
     d = cloud.points.shape[1]
     sides = as_periods(periods, d)
     if len(cloud) == 0:
-        return _empty(cloud.points, sides, cloud.crs)
-    box = box_cloud(cloud.points, sides)
+        return _empty(cloud, sides)
+    # Equal weights change no simplex, and values by a formula.
+    weight = 0.0 if cloud.weights is None else equal_weight(cloud.weights)
+    box = box_cloud(cloud.points, sides, cloud.weights if weight is None else None)
     copies, star = _certain_star(box, progress)
     layers, cofaces = periodic_complex(
         copies.rows,
@@ -84,7 +92,7 @@ def periodic_filtration(
         star.cells,
         box.anchors,
         box.shifts,
-        None,
+        box.weights,
         box.periods,
         box.exponent,
         threads,
@@ -99,12 +107,25 @@ def periodic_filtration(
         box.representative,
         tuple(layer.rows for layer in layers),
         tuple(read_only(layer.offsets[:, :, :d]) for layer in layers),
-        tuple(layer.radii for layer in layers),
+        tuple(shifted_radii(layer.radii, weight or 0.0) for layer in layers),
         tuple(layer.faces for layer in layers),
         cofaces if star.dimension == d else _none(2),
-        None,
-        read_only(np.empty(0, dtype=np.int32)),
         cloud.crs,
+        cloud.weights,
+        _hidden(box, layers[0].rows),
+    )
+
+
+def _hidden(box: BoxCloud, vertices: IntArray) -> IntArray:
+    """Return the rows that are in no simplex for their weight."""
+    if box.weights is None:
+        return nothing_hidden()
+    seen = np.zeros(len(box.anchors), dtype=bool)
+    seen[vertices] = True
+    # Those as heavy as the one that stands for them are duplicates, no more.
+    twins = box.weights == box.weights[box.representative]
+    return read_only(
+        np.flatnonzero(~(seen | (twins & seen[box.representative]))).astype(np.int32)
     )
 
 
@@ -141,7 +162,8 @@ def _first_halo(box: BoxCloud) -> FloatArray:
 
 def _star(box: BoxCloud, halo: FloatArray, progress: Progress | None) -> tuple[Copies, Star]:
     copies = box.copies(halo)
-    weights = np.zeros(len(copies.rows))
+    own = np.zeros(len(box.anchors)) if box.weights is None else box.weights
+    weights = own.take(copies.rows)
     star = periodic_star(copies.high, copies.low, weights, box.unit, len(box.rows), progress)
     return copies, star
 
@@ -164,12 +186,12 @@ def _none(columns: int) -> IntArray:
     return read_only(np.empty((0, columns), dtype=np.int32))
 
 
-def _empty(points: FloatArray, sides: tuple[float | None, ...], crs: Any) -> PeriodicFiltration:
-    d = points.shape[1]
+def _empty(cloud: Cloud, sides: tuple[float | None, ...]) -> PeriodicFiltration:
+    d = cloud.points.shape[1]
     layers = _padded([], d)
     return PeriodicFiltration(
-        points,
-        points,
+        cloud.points,
+        cloud.points,
         sides,
         read_only(np.empty(0, dtype=np.int32)),
         tuple(layer.rows for layer in layers),
@@ -177,7 +199,7 @@ def _empty(points: FloatArray, sides: tuple[float | None, ...], crs: Any) -> Per
         tuple(layer.radii for layer in layers),
         tuple(layer.faces for layer in layers),
         _none(2),
-        None,
-        read_only(np.empty(0, dtype=np.int32)),
-        crs,
+        cloud.crs,
+        cloud.weights,
+        nothing_hidden(),
     )

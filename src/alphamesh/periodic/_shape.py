@@ -37,20 +37,21 @@ class PeriodicShape(Record):
     ----------
     filtration : PeriodicFiltration
     radius : float
-        Not negative, in the units of the points. ``numpy.inf`` gives the whole
-        triangulation.
+        In the units of the points, not negative unless these have weights. ``numpy.inf``
+        gives the whole triangulation.
 
     Raises
     ------
     ParameterError
-        If `radius` is not a number, negative or NaN.
+        If `radius` is not a number, or NaN, or negative without weights.
     """
 
     filtration: PeriodicFiltration
     radius: float
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", checked_radius(self.radius))
+        signed = self.filtration.weights is not None
+        object.__setattr__(self, "radius", checked_radius(self.radius, signed=signed))
 
     @property
     def _d(self) -> int:
