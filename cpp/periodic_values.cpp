@@ -43,6 +43,12 @@ class Measurer {
   Dd difference(const Corner& a, const Corner& b, int axis) const {
     return two_diff(anchor(a, axis), anchor(b, axis)) + Dd{step(a, b, axis), 0.0};
   }
+  // The same rounded to double, to hardly more than half a unit in the last place: what the
+  // first sum loses is nothing where its terms cancel. So the sign is exact.
+  double rounded_difference(const Corner& a, const Corner& b, int axis) const {
+    const Dd t = two_diff(anchor(a, axis), anchor(b, axis)), s = two_sum(t.h, step(a, b, axis));
+    return s.h + (s.l + t.l);
+  }
   Big exact_difference(const Corner& a, const Corner& b, int axis) const {
     return Big(two_diff(anchor(a, axis), anchor(b, axis))) + Big(Dd{step(a, b, axis), 0.0});
   }
@@ -69,7 +75,8 @@ class Measurer {
   template <int K>
   int exact_side(const Corner* c, int k) const;
   Vector arrow(const Corner& from, const Corner& to) const {
-    return {difference(to, from, 0).h, difference(to, from, 1).h, difference(to, from, 2).h};
+    return {rounded_difference(to, from, 0), rounded_difference(to, from, 1),
+            rounded_difference(to, from, 2)};
   }
 
   const PeriodicBox& box_;
@@ -78,7 +85,7 @@ class Measurer {
 
 bool Measurer::before(const Corner& a, const Corner& b) const {
   for (int k = 0; k < 3; ++k) {
-    const double d = difference(a, b, k).h;
+    const double d = rounded_difference(a, b, k);
     if (d != 0.0) return d < 0.0;
   }
   return false;

@@ -79,7 +79,7 @@ class Buckets {
   void put(Id row, const Key& key) { key_[next_[static_cast<std::size_t>(row)]++] = key; }
   std::size_t size() const { return key_.size(); }
 
-  // Calls visit(row, key, fresh) for all keys in order; equal ones are fresh once.
+  // The simplices of K + 1 vertices, each once; number_of[source] is that of each key.
   template <int K>
   Layer number(Job& job, Buffer<Id>& number_of);
 
@@ -99,7 +99,6 @@ void write_simplex(Layer& layer, int vertices, std::size_t i, Id first, const Ke
   }
 }
 
-// Numbers the simplices of K + 1 vertices; number_of[source] is that of each key.
 template <int K>
 Layer Buckets::number(Job& job, Buffer<Id>& number_of) {
   const std::size_t rows = next_.size();
@@ -170,32 +169,33 @@ Layer faces_of(Layer& layer, std::size_t rows, Job& job) {
 // Cells whose first vertex lies in the box.
 template <int D>
 Layer canonical_cells(const Copies& copies, const Id* cells, std::size_t count, Job& job) {
-  Buckets buckets(copies.rows);
-  Buffer<std::uint8_t> kept(count);
-  Buffer<Vertex> sorted((D + 1) * count);
+  Buffer<Key> key(count);
+  Buffer<Id> row(count);  // the first; -1 of cells that lie elsewhere
   const Parts parts(count, job);
   job.run(parts.count(), [&](std::size_t part) {
     for (std::size_t c = parts.begin(part); c < parts.end(part); ++c) {
-      Vertex* v = sorted.data() + (D + 1) * c;
+      Vertex v[D + 1];
       for (std::size_t j = 0; j <= D; ++j) {
-        const auto copy = static_cast<std::size_t>(cells[(D + 1) * c + j]);
-        v[j].row = copies.row[copy];
         v[j].copy = cells[(D + 1) * c + j];
+        const auto copy = static_cast<std::size_t>(v[j].copy);
+        v[j].row = copies.row[copy];
         for (std::size_t k = 0; k < 3; ++k) v[j].offset[k] = copies.offset[3 * copy + k];
       }
       std::sort(v, v + D + 1);
-      kept[c] = static_cast<std::size_t>(v[0].copy) < copies.base ? 1 : 0;
+      row[c] = static_cast<std::size_t>(v[0].copy) < copies.base ? v[0].row : -1;
+      if (row[c] >= 0) key[c] = key_of(v, D + 1, 0);
     }
   });
+  Buckets buckets(copies.rows);
   for (std::size_t c = 0; c < count; ++c) {
-    if (kept[c] != 0) buckets.count(sorted[(D + 1) * c].row);
+    if (row[c] >= 0) buckets.count(row[c]);
   }
   buckets.allot();
   std::uint32_t found = 0;
   for (std::size_t c = 0; c < count; ++c) {
-    if (kept[c] == 0) continue;
-    const Vertex* v = sorted.data() + (D + 1) * c;
-    buckets.put(v[0].row, key_of(v, D + 1, found++));
+    if (row[c] < 0) continue;
+    key[c].source = found++;
+    buckets.put(row[c], key[c]);
   }
   Buffer<Id> number(found);
   Layer layer = buckets.number<D>(job, number);

@@ -226,7 +226,9 @@ Id SiteMesh<D>::new_cell() {
 // Puts a cell on each facet of the border.
 template <int D>
 void SiteMesh<D>::fill(Id q) {
-  if (4 * D * border_.size() > table_.size()) table_.assign(8 * D * border_.size(), {kEmpty, -1});
+  std::size_t size = table_.size();
+  while (size < 4 * D * border_.size()) size *= 2;
+  if (size > table_.size()) table_.assign(size, {kEmpty, -1});
   for (const Border& b : border_) {
     const Id made = new_cell();
     Cell cell = at(b.inner >> 2);
@@ -257,10 +259,9 @@ void SiteMesh<D>::link(Id c, int facet, Id common) {
     if (i != facet && v != common) ridge[count++] = static_cast<std::uint32_t>(v);
   }
   const std::uint64_t key = std::max(ridge[0], ridge[1]) << 32 | std::min(ridge[0], ridge[1]);
-  std::size_t place = (key * 0x9e3779b97f4a7c15u >> 20) % table_.size();
-  while (table_[place].first != kEmpty && table_[place].first != key) {
-    place = (place + 1) % table_.size();
-  }
+  const std::size_t mask = table_.size() - 1;
+  std::size_t place = (key * 0x9e3779b97f4a7c15u >> 32) & mask;
+  while (table_[place].first != kEmpty && table_[place].first != key) place = (place + 1) & mask;
   if (table_[place].first == kEmpty) {
     table_[place] = {key, 4 * c + facet};
     filled_.push_back(place);

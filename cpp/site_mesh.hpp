@@ -72,7 +72,7 @@ class SiteMesh {
   std::vector<Id> stamp_;  // twice the last site tested, + 1 if in conflict
   std::vector<Id> free_, cavity_;
   std::vector<Border> border_;
-  std::vector<std::pair<std::uint64_t, Id>> table_;  // open facets by their ridges
+  std::vector<std::pair<std::uint64_t, Id>> table_;  // facets by their ridges; 2^k places
   std::vector<std::size_t> filled_;
 };
 

@@ -113,7 +113,8 @@ int Sites::orient(const Id* v, const int* axes) const {
   double row[D][3], most[3] = {0.0, 0.0, 0.0};
   for (int i = 0; i < D; ++i) {
     for (int k = 0; k < D; ++k) {
-      row[i][k] = coordinate(high(v[i + 1]), axes[k]) - coordinate(high(v[0]), axes[k]);
+      const int axis = D == 3 ? k : axes[k];
+      row[i][k] = coordinate(high(v[i + 1]), axis) - coordinate(high(v[0]), axis);
       most[k] = std::max(most[k], std::fabs(row[i][k]));
     }
   }
@@ -145,9 +146,9 @@ bool Sites::conflict(const Id* v, Id q, const int* axes) const {
   const Point3 at = high(q);
   for (int i = 0; i <= D; ++i) {
     const Vector3<double> d = high(v[i]) - at;
-    const double* component = &d.x;
+    const double component[3] = {d.x, d.y, d.z};
     for (int k = 0; k < D; ++k) {
-      row[i][k] = component[axes[k]];
+      row[i][k] = component[D == 3 ? k : axes[k]];
       most[k] = std::max(most[k], std::fabs(row[i][k]));
     }
     const double square = dot(d, d), change = weight(q) - weight(v[i]);
@@ -156,7 +157,8 @@ bool Sites::conflict(const Id* v, Id q, const int* axes) const {
   }
   // Lifts of up to three squares and two weights, each off by a few roundings, and by
   // slack (2 (x + y + z) + 3 slack) at most: (x + y + z)^2 <= 3 highest.
-  const double slack = 2.0 * most_low_, length = std::sqrt(3.0 * highest);
+  const double slack = 2.0 * most_low_;
+  const double length = D == 3 ? most[0] + most[1] + most[2] : std::sqrt(3.0 * highest);
   const double uncertain = slack * (2.0 * length + 3.0 * slack);
   const Magnitude size = magnitude_of<D>(most, slack);
   const double terms = (D + 1) * size.terms * (highest + uncertain);

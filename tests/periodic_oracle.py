@@ -29,10 +29,20 @@ def moved(place, offset, periods):
     return tuple(x if side is None else x + k * Fraction(side) for x, k, side in pairs)
 
 
-def all_copies(places, periods):
+def weights_of(filtration):
+    if filtration.weights is None:
+        return [Fraction(0)] * len(filtration.points)
+    return [Fraction(w) for w in filtration.weights.tolist()]
+
+
+def all_copies(filtration, places, weights):
+    """Return all copies near the box, with their weights."""
+    periods = filtration.periods
     ranges = [(0,) if side is None else range(-FAR, FAR + 1) for side in periods]
     return {
-        moved(place, offset, periods) for place in set(places) for offset in product(*ranges)
+        (moved(place, offset, periods), weight)
+        for place, weight in set(zip(places, weights, strict=True))
+        for offset in product(*ranges)
     }
 
 
@@ -41,27 +51,28 @@ def corners(filtration, places, k, i):
     return [moved(places[row], offset, filtration.periods) for row, offset in pairs]
 
 
-def smallest_sphere(points):
-    """Return the centre and the squared radius of the smallest sphere through points."""
+def smallest_sphere(points, weights):
+    """Return the centre and the value of the smallest sphere orthogonal to weighted points."""
     arms = [minus(p, points[0]) for p in points[1:]]
-    rows = [[2 * dot(a, b) for b in arms] + [dot(a, a)] for a in arms]
+    pairs = list(zip(arms, weights[1:], strict=True))
+    rows = [[2 * dot(a, b) for b in arms] + [dot(a, a) - w + weights[0]] for a, w in pairs]
     shares = solve(rows) if arms else []
     centre = points[0]
     for share, arm in zip(shares, arms, strict=True):
         centre = tuple(c + share * x for c, x in zip(centre, arm, strict=True))
     away = minus(centre, points[0])
-    return centre, dot(away, away)
+    return centre, dot(away, away) - weights[0]
 
 
-def inside(centre, square, copies):
-    """Return the copies strictly within a sphere."""
-    return [p for p in copies if dot(minus(p, centre), minus(p, centre)) < square]
+def inside(centre, value, copies):
+    """Return the copies whose power is less than a value."""
+    return [p for p, w in copies if dot(minus(p, centre), minus(p, centre)) - w < value]
 
 
-def squared_values(filtration):
-    """Return the exact squared value of each simplex, by its definition."""
-    places = positions(filtration)
-    copies = all_copies(places, filtration.periods)
+def exact_values(filtration):
+    """Return the exact value of each simplex, the square of its radius, by its definition."""
+    places, weights = positions(filtration), weights_of(filtration)
+    copies = all_copies(filtration, places, weights)
     top = filtration.dimension
     values = [[None] * len(rows) for rows in filtration.simplices]
     for k in range(top, -1, -1):
@@ -71,11 +82,12 @@ def squared_values(filtration):
                 for face in faces:
                     value = values[k + 1][cell]
                     least[face] = value if least[face] is None else min(value, least[face])
-        for i in range(len(filtration.simplices[k])):
-            centre, square = smallest_sphere(corners(filtration, places, k, i))
-            gabriel = not inside(centre, square, copies)
+        for i, rows in enumerate(filtration.simplices[k].tolist()):
+            ends = corners(filtration, places, k, i)
+            centre, value = smallest_sphere(ends, [weights[row] for row in rows])
+            gabriel = not inside(centre, value, copies)
             assert gabriel or k < top, "a cell with a point in its sphere"
-            values[k][i] = square if gabriel else least[i]
+            values[k][i] = value if gabriel else least[i]
     return values
 
 

@@ -20,7 +20,7 @@ from alphamesh.errors import (
     NonFiniteError,
     PeriodsError,
 )
-from periodic_oracle import squared_values
+from periodic_oracle import exact_values
 
 
 def boxed(points, periods):
@@ -73,7 +73,7 @@ def boxes(draw, most=4):
 @given(boxes())
 def test_every_value_is_that_of_its_definition(box):
     filtration = boxed(*box).filtration
-    for values, radii in zip(squared_values(filtration), filtration.radii, strict=True):
+    for values, radii in zip(exact_values(filtration), filtration.radii, strict=True):
         for value, radius in zip(values, radii.tolist(), strict=True):
             assert radius == pytest.approx(math.sqrt(value), rel=4e-15, abs=0)
 
@@ -315,7 +315,7 @@ def test_clouds_may_have_fewer_dimensions(points, periods, dimension):
     made = boxed(points, periods)
     assert made.dimension == dimension
     filtration = made.filtration
-    for values, radii in zip(squared_values(filtration), filtration.radii, strict=True):
+    for values, radii in zip(exact_values(filtration), filtration.radii, strict=True):
         assert radii.tolist() == pytest.approx([math.sqrt(v) for v in values], rel=4e-15)
 
 
