@@ -152,6 +152,7 @@ NB_MODULE(_core, m) {
   m.def("incircle2", &incircle2, nb::arg("points"), nb::arg("perturb"));
   bind_incidence3(m);
   bind_outlines2(m);
+  bind_periodic(m);
   bind_persistence3(m);
   bind_regular2(m);
   bind_regular3(m);

@@ -145,6 +145,7 @@ inline nb::object points_array(Buffer<Point2>&& buffer) {
 // Each file of bindings adds its functions to the module.
 void bind_incidence3(nb::module_& m);
 void bind_outlines2(nb::module_& m);
+void bind_periodic(nb::module_& m);
 void bind_persistence3(nb::module_& m);
 void bind_regular2(nb::module_& m);
 void bind_regular3(nb::module_& m);

@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from alphamesh.io.points import read_points, read_table
     from alphamesh.molecule import Molecule
     from alphamesh.outline import Rings
+    from alphamesh.periodic import PeriodicFiltration, PeriodicPersistence, PeriodicShape
+    from alphamesh.periodic_complex import PeriodicComplex
     from alphamesh.persistence import Persistence, persistence
     from alphamesh.planar import Selection
     from alphamesh.queries import Nearest
@@ -91,6 +93,10 @@ __all__ = [
     "Molecule",
     "Nearest",
     "Nearest3D",
+    "PeriodicComplex",
+    "PeriodicFiltration",
+    "PeriodicPersistence",
+    "PeriodicShape",
     "Persistence",
     "PointTable",
     "RadiusChoice",
@@ -160,6 +166,8 @@ _HOMES = {
     "io.points": ("read_points", "read_table"),
     "molecule": ("Molecule",),
     "outline": ("Rings",),
+    "periodic": ("PeriodicFiltration", "PeriodicPersistence", "PeriodicShape"),
+    "periodic_complex": ("PeriodicComplex",),
     "persistence": ("Persistence", "persistence"),
     "planar": ("Selection",),
     "queries": ("Nearest",),

@@ -57,6 +57,9 @@ class AlphaComplex(Exports):
         on it.
     progress : callable, optional
         Called with the fraction that is done, from 0 to 1, about ten times a second.
+    periods : sequence of float or None, optional
+        The side lengths of a periodic box, None where it is open, such as
+        ``(10, 10, None)``. They give a :class:`~alphamesh.PeriodicComplex`.
 
     Raises
     ------
@@ -104,11 +107,17 @@ class AlphaComplex(Exports):
         points: Any,
         *,
         weights: Any = None,
+        periods: Any = None,
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> Self:
-        """Return an :class:`~alphamesh.AlphaComplex3D` if the points have three columns."""
+        """Return the class that the columns of the points, or `periods`, ask for."""
         cloud = as_cloud(points, weights=weights)
+        if periods is not None:
+            from alphamesh.periodic_complex import periodic_complex
+
+            boxed: Any = periodic_complex(cloud, periods, threads=threads, progress=progress)
+            return boxed  # type: ignore[no-any-return]
         kind: Any = cls
         if cls is AlphaComplex and cloud.points.shape[1] == 3:
             from alphamesh.complex3d import AlphaComplex3D

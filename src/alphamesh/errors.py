@@ -23,6 +23,8 @@ __all__ = [
     "MissingLibraryError",
     "NonFiniteError",
     "ParameterError",
+    "PeriodicError",
+    "PeriodsError",
     "UnknownElementError",
     "UnweightedOnlyError",
     "WeightsError",
@@ -103,6 +105,14 @@ class ParameterError(AlphameshError, ValueError):
 
 class UnknownElementError(AlphameshError, ValueError):
     """Atoms of elements that no van der Waals radius is known for."""
+
+
+class PeriodsError(ParameterError):
+    """Side lengths that no periodic box can have."""
+
+
+class PeriodicError(AlphameshError, AttributeError):
+    """Something that clouds in open space have, asked of a cloud in a periodic box."""
 
 
 class DimensionError(AlphameshError, TypeError):

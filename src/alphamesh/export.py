@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     Array: TypeAlias = np.ndarray[Any, Any]
 
-__all__ = ["Exports", "to_gudhi", "to_numpy", "write_npz"]
+__all__ = ["Exports", "to_gudhi", "to_numpy", "write_arrays", "write_npz"]
 
 _NAMES = ("vertices", "edges", "triangles", "tetrahedra")
 _RADII = ("vertex_radii", "edge_radii", "triangle_radii", "tetrahedron_radii")
@@ -126,11 +126,16 @@ def write_npz(filtration: Filtered, path: str | os.PathLike[str]) -> None:
     FileWriteError
         If the file cannot be written.
     """
+    write_arrays(to_numpy(filtration), path)
+
+
+def write_arrays(arrays: dict[str, Array], path: str | os.PathLike[str]) -> None:
+    """Write arrays by name into one file; parameters and errors are those of `write_npz`."""
     from alphamesh.io._atomic import atomic_path
 
     with atomic_path(path) as temporary, temporary.open("wb") as file:
-        arrays: Any = to_numpy(filtration)
-        np.savez(file, **arrays)
+        named: Any = arrays
+        np.savez(file, **named)
 
 
 class Exports:

@@ -71,25 +71,30 @@ class Persistence(Record):
         """The dimensions that classes can have: 0 and 1 in the plane, also 2 in space."""
         return range(self.filtration.points.shape[1])
 
+    def _checked(self, dimension: int) -> int:
+        if dimension in (0, 1, 2):
+            return int(dimension)
+        raise ParameterError(
+            f"dimension must be 0 (components), 1 (loops) or 2 (voids); got {dimension!r}"
+        )
+
     # In radii
 
     @cached_property
-    def births(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Birth of each of `pairs`, three ``(p_k,)`` float64 arrays of radii."""
+    def births(self) -> tuple[FloatArray, ...]:
+        """Birth of each of `pairs`, ``(p_k,)`` float64 arrays of radii."""
         radii = self.filtration.radii
-        zero, one, two = (
+        return tuple(
             read_only(radii[k].take(pairs[:, 0])) for k, pairs in enumerate(self.pairs)
         )
-        return zero, one, two
 
     @cached_property
-    def deaths(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Death of each of `pairs`, three ``(p_k,)`` float64 arrays of radii."""
+    def deaths(self) -> tuple[FloatArray, ...]:
+        """Death of each of `pairs`, ``(p_k,)`` float64 arrays of radii."""
         radii = (*self.filtration.radii[1:], np.empty(0))
-        zero, one, two = (
+        return tuple(
             read_only(radii[k].take(pairs[:, 1])) for k, pairs in enumerate(self.pairs)
         )
-        return zero, one, two
 
     def diagram(
         self, dimension: int, *, squared: bool = False, zero_length: bool = False
@@ -118,7 +123,7 @@ class Persistence(Record):
         ParameterError
             If `dimension` is not 0, 1 or 2.
         """
-        k = _checked_dimension(dimension)
+        k = self._checked(dimension)
         births, deaths = self.births[k], self.deaths[k]
         if not zero_length:
             lasting = births < deaths
@@ -191,7 +196,7 @@ class Persistence(Record):
         StepCurve
             ``radii``, (k,) float64, as in :meth:`betti_curve`, and ``values``, (k,) int64.
         """
-        signs = np.array([1, -1, 1], dtype=np.int64)[: len(self._dimensions)]
+        signs = np.array([(-1) ** k for k in self._dimensions], dtype=np.int64)
         return steps_of(
             lambda radii: self.betti_numbers(radii) @ signs,
             self._sorted_lives,
@@ -234,7 +239,7 @@ class Persistence(Record):
             If `radius` is no number, or negative without weights, or there is no such
             dimension.
         """
-        k = _checked_dimension(dimension)
+        k = self._checked(dimension)
         value = float(checked_radii(radius, signed=self._signed).reshape(()))
         alive: BoolArray = (self.births[k] <= value) & (value < self.deaths[k])
         rows = np.flatnonzero(alive)
@@ -390,11 +395,3 @@ def _unpaired(filtration: AnyFiltration, pairs: tuple[IntArray, ...], k: int) ->
     if k > 0:
         alone[pairs[k - 1][:, 1]] = False
     return read_only(np.flatnonzero(alone).astype(np.int32))
-
-
-def _checked_dimension(dimension: int) -> int:
-    if dimension in (0, 1, 2):
-        return int(dimension)
-    raise ParameterError(
-        f"dimension must be 0 (components), 1 (loops) or 2 (voids); got {dimension!r}"
-    )

@@ -35,6 +35,7 @@ __all__ = [
     "at_positions",
     "births_of_rows",
     "coordinate_error",
+    "last_digits",
     "merged_rows",
     "refuse_overflow",
     "tiny_queries",
@@ -282,7 +283,7 @@ def _range_error(points: FloatArray, digits: int | None = None) -> CoordinateRan
     sizes, digits = np.abs(points), digits or _EXPONENT_RANGES[points.shape[1]]
     used = sizes > 0
     first = np.where(used, np.frexp(sizes)[1], np.iinfo(np.int32).min)
-    last = np.where(used, _last_digit(sizes), np.iinfo(np.int32).max)
+    last = np.where(used, last_digits(sizes), np.iinfo(np.int32).max)
     tiny = np.flatnonzero((int(first.max()) - last > digits).any(axis=1))
     huge = np.flatnonzero((first - int(last.min()) > digits).any(axis=1))
     largest = float(sizes.max())
@@ -313,7 +314,7 @@ def _weight_range_error(points: FloatArray, weights: FloatArray) -> CoordinateRa
         return _range_error(points, digits)
     used = masses > 0
     # A weight counts as a coordinate squared does: its digits are half as far from 1.
-    first, last = np.frexp(masses)[1], _last_digit(masses)
+    first, last = np.frexp(masses)[1], last_digits(masses)
     huge = np.flatnonzero(used & (first > 2 * (bottom + digits)))
     if len(huge):
         return CoordinateRangeError(
@@ -342,10 +343,10 @@ def _digits_used(magnitudes: FloatArray) -> tuple[int, int]:
     used = magnitudes[magnitudes > 0]
     if len(used) == 0:
         return 0, 0
-    return int(np.frexp(used.max())[1]), int(_last_digit(used).min())
+    return int(np.frexp(used.max())[1]), int(last_digits(used).min())
 
 
-def _last_digit(magnitudes: FloatArray) -> np.ndarray[Any, np.dtype[np.int64]]:
+def last_digits(magnitudes: FloatArray) -> np.ndarray[Any, np.dtype[np.int64]]:
     """Return the exponent of the last binary digit that is set in each number (0 of 0)."""
     mantissas, exponents = np.frexp(magnitudes)
     integers = np.ldexp(mantissas, 53).astype(np.int64)

@@ -89,6 +89,47 @@ def persistence3(
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]: ...
+def periodic_star(
+    high: NDArray[np.float64],
+    low: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    unit: float,
+    base: int,
+    progress: Callable[[float], object] | None,
+) -> tuple[int, NDArray[np.int32], NDArray[np.float64], NDArray[np.float64], bool]: ...
+def periodic_complex(
+    rows: NDArray[np.int32],
+    offsets: NDArray[np.int8],
+    base: int,
+    cells: NDArray[np.int32],
+    anchors: NDArray[np.float64],
+    shifts: NDArray[np.int8],
+    weights: NDArray[np.float64] | None,
+    periods: NDArray[np.float64],
+    exponent: int,
+    threads: int,
+) -> tuple[
+    list[
+        tuple[
+            NDArray[np.int32],
+            NDArray[np.int8],
+            NDArray[np.int32],
+            NDArray[np.float64],
+        ]
+    ],
+    NDArray[np.int32],
+]: ...
+def periodic_check(
+    cells: NDArray[np.int32],
+    offsets: NDArray[np.int8],
+    faces: NDArray[np.int32],
+    facet_cells: NDArray[np.int32],
+    anchors: NDArray[np.float64],
+    shifts: NDArray[np.int8],
+    weights: NDArray[np.float64] | None,
+    periods: NDArray[np.float64],
+    threads: int,
+) -> NDArray[np.int8]: ...
 def component_count(n: int, pairs: NDArray[np.int32]) -> int: ...
 def triangle_edges2(
     points: NDArray[np.float64],

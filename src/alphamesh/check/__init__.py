@@ -13,6 +13,7 @@ References
 
 from alphamesh.check._delaunay import check_delaunay
 from alphamesh.check._filtration import RADIUS_ERROR, check_filtration
+from alphamesh.check._periodic import check_periodic
 from alphamesh.check._shape import check_shape
 from alphamesh.check._space_filtration import RADIUS_ERROR_IN_SPACE
 from alphamesh.check._surface import check_surface
@@ -24,6 +25,7 @@ __all__ = [
     "RADIUS_ERROR_WITH_WEIGHTS",
     "check_delaunay",
     "check_filtration",
+    "check_periodic",
     "check_shape",
     "check_surface",
 ]

@@ -1,0 +1,235 @@
+#include "quotient.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace alphamesh {
+namespace {
+
+using Id = std::int32_t;
+
+// A simplex of up to four vertices in a bucket of those that share the first row: rows, then
+// offsets, five bits each; then where it came from.
+struct Key {
+  std::uint64_t upper;  // second and third row
+  std::uint64_t lower;  // fourth row, offsets of the second, third and fourth vertex
+  std::uint32_t source;
+
+  bool same(const Key& o) const { return upper == o.upper && lower == o.lower; }
+  bool operator<(const Key& o) const {
+    if (upper != o.upper) return upper < o.upper;
+    if (lower != o.lower) return lower < o.lower;
+    return source < o.source;
+  }
+};
+
+// Three offsets in -1 ... 1 as one number, in lexicographic order.
+std::uint64_t code_of(const int* offset) {
+  std::uint64_t code = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (offset[k] < -1 || offset[k] > 1) throw std::logic_error("a simplex longer than a box");
+    code = 3 * code + static_cast<std::uint64_t>(offset[k] + 1);
+  }
+  return code;
+}
+
+void decode(std::uint64_t code, std::int8_t* offset) {
+  for (int k = 2; k >= 0; --k) {
+    offset[k] = static_cast<std::int8_t>(static_cast<int>(code % 3) - 1);
+    code /= 3;
+  }
+}
+
+struct Vertex {
+  Id row;
+  int offset[3];
+  std::int32_t copy;
+
+  bool operator<(const Vertex& o) const {
+    if (row != o.row) return row < o.row;
+    return std::lexicographical_compare(offset, offset + 3, o.offset, o.offset + 3);
+  }
+};
+
+// Of vertices in order; offsets become relative to the first.
+Key key_of(const Vertex* v, int count, std::uint32_t source) {
+  std::uint64_t row[4] = {0, 0, 0, 0}, code[4] = {0, 0, 0, 0};
+  for (int i = 1; i < count; ++i) {
+    int relative[3];
+    for (int k = 0; k < 3; ++k) relative[k] = v[i].offset[k] - v[0].offset[k];
+    row[i] = static_cast<std::uint32_t>(v[i].row);
+    code[i] = code_of(relative);
+  }
+  return {row[1] << 32 | row[2], row[3] << 32 | code[1] << 10 | code[2] << 5 | code[3], source};
+}
+
+// Keys in buckets by first row.
+class Buckets {
+ public:
+  explicit Buckets(std::size_t rows) : start_(rows + 1) {
+    std::fill(start_.begin(), start_.end(), 0);
+  }
+  void count(Id row) { ++start_[static_cast<std::size_t>(row) + 1]; }
+  void allot() {
+    for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
+    key_ = Buffer<Key>(start_[start_.size() - 1]);
+    next_ = Buffer<std::size_t>(start_.size() - 1);
+    std::copy(start_.data(), start_.data() + next_.size(), next_.begin());
+  }
+  void put(Id row, const Key& key) { key_[next_[static_cast<std::size_t>(row)]++] = key; }
+  std::size_t size() const { return key_.size(); }
+
+  // The simplices of K + 1 vertices, each once; number_of[source] is that of each key.
+  template <int K>
+  Layer number(Job& job, Buffer<Id>& number_of);
+
+ private:
+  Buffer<std::size_t> start_, next_;
+  Buffer<Key> key_;
+};
+
+void write_simplex(Layer& layer, int vertices, std::size_t i, Id first, const Key& key) {
+  const Id rows[4] = {first, static_cast<Id>(key.upper >> 32),
+                      static_cast<Id>(key.upper & 0xffffffffu), static_cast<Id>(key.lower >> 32)};
+  const std::uint64_t codes[4] = {13, key.lower >> 10 & 31, key.lower >> 5 & 31, key.lower & 31};
+  for (int v = 0; v < vertices; ++v) {
+    const std::size_t at = i * static_cast<std::size_t>(vertices) + static_cast<std::size_t>(v);
+    layer.row[at] = rows[v];
+    decode(codes[v], &layer.offset[3 * at]);
+  }
+}
+
+template <int K>
+Layer Buckets::number(Job& job, Buffer<Id>& number_of) {
+  const std::size_t rows = next_.size();
+  const Parts parts(rows, job, 1024);
+  std::vector<std::size_t> first(parts.count() + 1, 0);
+  job.run(parts.count(), [&](std::size_t part) {
+    std::size_t distinct = 0;
+    for (std::size_t r = parts.begin(part); r < parts.end(part); ++r) {
+      Key *from = key_.data() + start_[r], *to = key_.data() + start_[r + 1];
+      std::sort(from, to);
+      for (Key* k = from; k < to; ++k) distinct += k == from || !k->same(k[-1]) ? 1 : 0;
+    }
+    first[part + 1] = distinct;
+  });
+  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+  Layer layer;
+  layer.count = first.back();
+  layer.row = Buffer<Id>((K + 1) * layer.count);
+  layer.offset = Buffer<std::int8_t>(3 * (K + 1) * layer.count);
+  job.run(parts.count(), [&](std::size_t part) {
+    std::size_t next = first[part];
+    for (std::size_t r = parts.begin(part); r < parts.end(part); ++r) {
+      for (std::size_t k = start_[r]; k < start_[r + 1]; ++k) {
+        if (k == start_[r] || !key_[k].same(key_[k - 1])) {
+          write_simplex(layer, K + 1, next++, static_cast<Id>(r), key_[k]);
+        }
+        number_of[key_[k].source] = static_cast<Id>(next - 1);
+      }
+    }
+  });
+  return layer;
+}
+
+template <int K>
+void vertices_of(const Layer& layer, std::size_t i, Vertex* v) {
+  for (int j = 0; j <= K; ++j) {
+    const std::size_t at = i * (K + 1) + static_cast<std::size_t>(j);
+    v[j].row = layer.row[at];
+    for (int k = 0; k < 3; ++k) v[j].offset[k] = layer.offset[3 * at + static_cast<std::size_t>(k)];
+  }
+}
+
+// The faces of a layer of dimension K, and which of them each simplex has.
+template <int K>
+Layer faces_of(Layer& layer, std::size_t rows, Job& job) {
+  const std::size_t sources = (K + 1) * layer.count;
+  if (sources > 0xffffffffu) throw std::length_error("too many simplices");
+  Buckets buckets(rows);
+  for (std::size_t i = 0; i < layer.count; ++i) {
+    for (int j = 0; j <= K; ++j) buckets.count(layer.row[i * (K + 1) + (j == 0 ? 1 : 0)]);
+  }
+  buckets.allot();
+  Vertex v[K + 1], face[K];
+  for (std::size_t i = 0; i < layer.count; ++i) {
+    if ((i & 0xfff) == 0) job.poll();
+    vertices_of<K>(layer, i, v);
+    for (int j = 0; j <= K; ++j) {
+      std::copy(v, v + j, face);
+      std::copy(v + j + 1, v + K + 1, face + j);
+      const auto source = static_cast<std::uint32_t>(i * (K + 1) + static_cast<std::size_t>(j));
+      buckets.put(face[0].row, key_of(face, K, source));
+    }
+  }
+  layer.face = Buffer<Id>(sources);
+  return buckets.number<K - 1>(job, layer.face);
+}
+
+// Cells whose first vertex lies in the box.
+template <int D>
+Layer canonical_cells(const Copies& copies, const Id* cells, std::size_t count, Job& job) {
+  Buffer<Key> key(count);
+  Buffer<Id> row(count);  // the first; -1 of cells that lie elsewhere
+  const Parts parts(count, job);
+  job.run(parts.count(), [&](std::size_t part) {
+    for (std::size_t c = parts.begin(part); c < parts.end(part); ++c) {
+      Vertex v[D + 1];
+      for (std::size_t j = 0; j <= D; ++j) {
+        v[j].copy = cells[(D + 1) * c + j];
+        const auto copy = static_cast<std::size_t>(v[j].copy);
+        v[j].row = copies.row[copy];
+        for (std::size_t k = 0; k < 3; ++k) v[j].offset[k] = copies.offset[3 * copy + k];
+      }
+      std::sort(v, v + D + 1);
+      row[c] = static_cast<std::size_t>(v[0].copy) < copies.base ? v[0].row : -1;
+      if (row[c] >= 0) key[c] = key_of(v, D + 1, 0);
+    }
+  });
+  Buckets buckets(copies.rows);
+  for (std::size_t c = 0; c < count; ++c) {
+    if (row[c] >= 0) buckets.count(row[c]);
+  }
+  buckets.allot();
+  std::uint32_t found = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    if (row[c] < 0) continue;
+    key[c].source = found++;
+    buckets.put(row[c], key[c]);
+  }
+  Buffer<Id> number(found);
+  Layer layer = buckets.number<D>(job, number);
+  if (layer.count != found) throw std::logic_error("a cell was met twice");
+  return layer;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<Layer> quotient(const Copies& copies, const Id* cells, std::size_t count, Job& job) {
+  std::vector<Layer> layers(D + 1);
+  layers[D] = canonical_cells<D>(copies, cells, count, job);
+  job.advance(0.1);
+  if constexpr (D == 3) layers[2] = faces_of<3>(layers[3], copies.rows, job);
+  job.advance(0.1);
+  if constexpr (D >= 2) layers[1] = faces_of<2>(layers[2], copies.rows, job);
+  layers[0] = faces_of<1>(layers[1], copies.rows, job);
+  return layers;
+}
+
+template std::vector<Layer> quotient<1>(const Copies&, const Id*, std::size_t, Job&);
+template std::vector<Layer> quotient<2>(const Copies&, const Id*, std::size_t, Job&);
+template std::vector<Layer> quotient<3>(const Copies&, const Id*, std::size_t, Job&);
+
+Buffer<Id> cofaces(const Layer& cells, std::size_t columns, std::size_t facets) {
+  Buffer<Id> out(2 * facets);
+  std::fill(out.begin(), out.end(), -1);
+  for (std::size_t i = 0; i < columns * cells.count; ++i) {
+    Id* pair = &out[2 * static_cast<std::size_t>(cells.face[i])];
+    if (pair[1] >= 0) throw std::logic_error("a facet of three cells");
+    pair[pair[0] < 0 ? 0 : 1] = static_cast<Id>(i / columns);
+  }
+  return out;
+}
+
+}  // namespace alphamesh

@@ -1,0 +1,20 @@
+"""Alpha complexes of periodic boxes: a box that stands for all of space, filled with copies."""
+
+from alphamesh.periodic._box import as_periods
+from alphamesh.periodic._filtration import PeriodicFiltration
+from alphamesh.periodic._making import periodic_filtration
+from alphamesh.periodic._persistence import PeriodicPersistence, periodic_persistence
+from alphamesh.periodic._radius import choose_periodic_radius
+from alphamesh.periodic._shape import PeriodicShape
+from alphamesh.periodic._tiling import tiled_points
+
+__all__ = [
+    "PeriodicFiltration",
+    "PeriodicPersistence",
+    "PeriodicShape",
+    "as_periods",
+    "choose_periodic_radius",
+    "periodic_filtration",
+    "periodic_persistence",
+    "tiled_points",
+]
