@@ -55,7 +55,7 @@ def test_three_balls_of_different_size():
 def test_weights_in_fifty_digits(kind, seed):
     rng = np.random.default_rng(seed)
     points = rng.random((16, 3))
-    built = am.AlphaComplex(points, weights=WEIGHTS[kind](rng, 16, 0.4)).filtration
+    built = am.AlphaComplex(points, weights=WEIGHTS[kind](rng, points)).filtration
     critical = np.unique(np.concatenate(built.radii))
     for radius in rng.choice((critical[1:] + critical[:-1]) / 2, 4):
         found, exact = union_of_balls(built, radius), Balls(built, radius)
@@ -70,7 +70,7 @@ def test_weights_in_fifty_digits(kind, seed):
 def test_weights_equal_sampling(dimension, kind):
     rng = np.random.default_rng(3)
     points = rng.random((20, dimension))
-    weights = WEIGHTS[kind](rng, 20, 0.3)
+    weights = WEIGHTS[kind](rng, points)
     cx = am.AlphaComplex(points, weights=weights)
     for radius in (0.0, 0.15, -0.1):
         found = cx.union(radius)

@@ -89,7 +89,7 @@ def hairs(rng, points):
 
 def tied(rng, points):
     """Return weights that lift all points onto a plane, up to rounding: the hardest tie."""
-    return (points**2).sum(axis=1) + points @ rng.integers(-3, 4, 2)
+    return (points**2).sum(axis=1) + points @ rng.integers(-3, 4, points.shape[1])
 
 
 def nearly_tied(rng, points):

@@ -327,14 +327,7 @@ class AlphaComplex(Exports):
             The radius that is shown first; by default the one that
             :meth:`choose_radius` chooses.
         title : str, optional
-            The heading of the page.
-
-        Raises
-        ------
-        FileWriteError
-            If it cannot be written.
-        ParameterError
-            If `radius` is not a number, negative or NaN, or `title` is no text.
+            Its heading; errors are those of :func:`alphamesh.view.write_page`.
         """
         from alphamesh.view import write_page
 
@@ -362,8 +355,6 @@ class AlphaComplex(Exports):
         ------
         MissingLibraryError
             If anywidget is not installed (the extra ``widget``).
-        ParameterError
-            If an argument is not what it must be.
         """
         from alphamesh.view import make_widget
 
