@@ -49,7 +49,7 @@ def test_right_results_pass(family, data):
 def test_the_names_are_public():
     assert set(alphamesh.check.__all__) == {
         "RADIUS_ERROR", "RADIUS_ERROR_IN_SPACE", "RADIUS_ERROR_WITH_WEIGHTS",
-        "check_delaunay", "check_filtration", "check_shape", "check_surface",
+        "check_delaunay", "check_filtration", "check_periodic", "check_shape", "check_surface",
     }  # fmt: skip
     assert RADIUS_ERROR <= alphamesh.check.RADIUS_ERROR_IN_SPACE <= 1e-12
 

@@ -79,9 +79,9 @@ def test_equal_weights_change_no_simplex(d):
 
 def test_values_are_those_of_diode():
     diode = pytest.importorskip("diode")
-    # Of seed 2, diode leaves out a point that exact fractions prove to be visible: its Euler
-    # characteristic is 1, which no torus has.
-    rng = np.random.default_rng(3)
+    # Of seeds 2, 3 and 6, diode leaves out points that exact fractions prove to be visible:
+    # its Euler characteristic is 1 or 2, which no torus has.
+    rng = np.random.default_rng(4)
     points, weights = rng.random((400, 3)), rng.random(400) * 0.01
     made = weighted(points, (1, 1, 1), weights)
     rows, values = diode.fill_weighted_periodic_alpha_shapes_arrays(
