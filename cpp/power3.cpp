@@ -35,7 +35,7 @@ Big lift_big(const View& v) { return dot(big(v), big(v)) + Big(v.weight); }
 struct Corner {
   View a, b, c;
 
-  explicit Corner(const Weighted3& o, const Weighted3& p, const Weighted3& q, const Weighted3& r)
+  Corner(const Weighted3& o, const Weighted3& p, const Weighted3& q, const Weighted3& r)
       : a(o, p), b(o, q), c(o, r) {}
   Circumcentre<Pair> pairs() const {
     return {pair(a), pair(b), pair(c), lift_pair(a), lift_pair(b), lift_pair(c)};
@@ -67,8 +67,8 @@ int exponent_of(double v) {
   return v == 0.0 ? -4000 : e;
 }
 
-// |n|^2 - 4 w^2 `weight` / 4^scale, and the factor that w was multiplied by to get there: the
-// terms are of degree eight, beyond the range of doubles unless they are brought to 1.
+// Powers of two that bring the terms of |n|^2 - 4 w^2 `weight` to 1: they are of degree eight,
+// beyond the range of doubles.
 struct Frame {
   int shift;        // n and w are divided by 2^shift
   int root;         // and `weight` by 4^root
@@ -96,7 +96,7 @@ double root_over(double v, int shift, double w, int exponent) {
 
 // See in_sphere_exact(): a lift has k = 6 and c = 38, the centre 13 and 159, the value 18 and
 // 317. Sums of magnitudes over components are at most 2 / sqrt(3) times products of lengths (the
-// greatest permanent of three unit vectors), twice its square for two products: below 2^9 u^2.
+// greatest permanent of three unit vectors), its square for two: below 2^9 u^2.
 int in_power_sphere_exact(const Weighted3& p, const Weighted3& a, const Weighted3& b,
                           const Weighted3& c, const Weighted3& e, const Lattice3& lattice) {
   const Corner corner(p, a, b, c);

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from itertools import product
+from fractions import Fraction
+from itertools import combinations, product
 
 import numpy as np
 import pytest
 
 from alphamesh._kernels import _core
-from oracles_weighted import relative_error, weighted_complex
+from oracles3 import exact
+from oracles_weighted import affine_dimension, relative_error, weighted_complex
 from space_core import WEIGHTED, alpha3, regular3, row_set
-from weighted_space import check_weighted_cloud, nasty_weighted_cloud, simplices_of
+from weighted_space import (
+    check_weighted_cloud,
+    nasty_weighted_cloud,
+    orthocentre,
+    root_error,
+    simplices_of,
+)
 
 SIMPLICES = ("tetrahedra", "triangles", "edges")
 RADII = ("tetrahedron_radii", "triangle_radii", "edge_radii")
@@ -54,8 +62,24 @@ def powers_of(result):
 @pytest.mark.parametrize("seed", range(100))
 def test_nasty_clouds_by_the_definition(seed):
     points, weights, exponent = nasty_weighted_cloud(seed)
-    if np.linalg.matrix_rank((points - points[0]).astype(float)) == 3:
+    if affine_dimension(exact(points)) == 3:
         check_weighted_cloud(points, weights, exponent)
+    else:
+        scaled = np.ldexp(np.array(weights, dtype=float), 2 * exponent)
+        check_flat_cloud(np.ldexp(points.astype(float), exponent), scaled)
+
+
+def check_flat_cloud(points, weights):
+    result, expected = regular3(points, weights), weighted_complex(points, weights)
+    assert result["dimension"] == expected.dimension < 3
+    if result["representative"] is not None:
+        assert result["representative"].tolist() == expected.representative
+    assert result["hidden"].tolist() == expected.hidden
+    radii = simplices_of(result)
+    assert radii.keys() == expected.powers.keys()
+    for s, power in expected.powers.items():
+        assert relative_error(radii[s], power) < 1e-13, s
+    assert (result["triangle_tetrahedra"] == -1).all()
 
 
 def test_simplices_and_values_are_those_of_gudhi(cloud):
@@ -221,14 +245,40 @@ def flat_cloud(seed):
 
 @pytest.mark.parametrize("seed", range(60))
 def test_flat_clouds_by_the_definition(seed):
-    points, weights = flat_cloud(seed)
-    result, expected = regular3(points, weights), weighted_complex(points, weights)
-    assert result["dimension"] == expected.dimension
-    if result["representative"] is not None:
-        assert result["representative"].tolist() == expected.representative
-    assert result["hidden"].tolist() == expected.hidden
-    radii = simplices_of(result)
-    assert radii.keys() == expected.powers.keys()
-    for s, power in expected.powers.items():
-        assert relative_error(radii[s], power) < 1e-13, s
-    assert (result["triangle_tetrahedra"] == -1).all()
+    check_flat_cloud(*flat_cloud(seed))
+
+
+def about_zero(rng):
+    return rng.random((60, 3)), 0.0045 * 5 + rng.random(60) * 1e-12
+
+
+HARD = {
+    "powers that cancel": about_zero,
+    "flat": lambda rng: (rng.random((60, 3)) * [1, 1, 1e-12], rng.random(60) * 1e-2),
+    "needles": lambda rng: (rng.random((60, 3)) * [1, 1e-7, 1e-7], rng.random(60) * 1e-3),
+    "slope": lambda rng: ((p := rng.random((60, 3))), p @ [1e8, 1e8, -3e8]),
+    "far": lambda rng: (rng.random((60, 3)) + 1e6, rng.random(60) * 0.02),
+    "large": lambda rng: (rng.random((60, 3)) * 2.0**400, rng.random(60) * 2.0**792),
+    "small": lambda rng: (rng.random((60, 3)) * 2.0**-300, rng.random(60) * 2.0**-608),
+}
+
+
+@pytest.mark.parametrize("kind", HARD)
+def test_values_are_good_to_the_last_digits_however_small(kind):
+    points, weights = HARD[kind](np.random.default_rng(2))
+    places = [[Fraction(v) for v in p] for p in points.tolist()]
+    heavy = [Fraction(w) for w in weights.tolist()]
+    radii = simplices_of(regular3(points, weights))
+    least = {}
+    for s, radius in radii.items():
+        for face in combinations(s, len(s) - 1):
+            assert not face or radii[face] <= radius
+            least[face] = min(least.get(face, radius), radius)
+    checked = 0
+    for s, radius in radii.items():
+        if radius == least.get(s):  # attached, or as good as
+            continue
+        _, power = orthocentre([places[i] for i in s], [heavy[i] for i in s])
+        assert root_error(radius, power) < 5e-13, s
+        checked += 1
+    assert checked > 100

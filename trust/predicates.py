@@ -1,4 +1,4 @@
-"""Compiles and runs the campaign of the predicates, written in C++ for its speed."""
+"""Compiles and runs the campaigns of the predicates, written in C++ for their speed."""
 
 from __future__ import annotations
 
@@ -15,11 +15,10 @@ __all__ = ["campaign", "compiler"]
 
 _HERE = Path(__file__).resolve().parent
 _CORE = _HERE.parent / "cpp"
-_SOURCES = (
-    _HERE / "predicates.cpp",
-    _CORE / "predicates2.cpp",
-    _CORE / "predicates3.cpp",
-)
+_PROGRAMS = {
+    "predicates.cpp": ("predicates2.cpp", "predicates3.cpp"),
+    "powers.cpp": ("memory.cpp", "power3.cpp", "predicates2.cpp", "predicates3.cpp"),
+}
 _FLAGS = ("-O2", "-std=c++17", "-ffp-contract=off", "-DALPHAMESH_COUNT")
 
 
@@ -48,10 +47,18 @@ def campaign(count: int, *, seed: int = 1) -> list[dict[str, Any]]:
         raise RuntimeError(
             "the campaign of the predicates needs a C++ compiler; name it in CXX"
         )
+    found: list[dict[str, Any]] = []
+    for name, parts in _PROGRAMS.items():
+        found += _run(program, [_HERE / name, *(_CORE / part for part in parts)], count, seed)
+    return found
+
+
+def _run(program: str, sources: list[Path], count: int, seed: int) -> list[dict[str, Any]]:
+    """Compile and run one program."""
     start = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
-        built = Path(folder) / "predicates"
-        command = [program, *_FLAGS, f"-I{_CORE}", f"-I{_HERE}", *map(str, _SOURCES)]
+        built = Path(folder) / "campaign"
+        command = [program, *_FLAGS, f"-I{_CORE}", f"-I{_HERE}", *map(str, sources)]
         subprocess.run([*command, "-o", str(built)], check=True)
         done = subprocess.run(
             [str(built), str(count), str(seed)], check=True, stdout=subprocess.PIPE, text=True
