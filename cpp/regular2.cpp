@@ -184,7 +184,12 @@ Buffer<Role> roles_of(const SpatialOrder<S>& order, const Mesh2& mesh, std::size
   constexpr Role kRole[4] = {Role::kNone, Role::kGabriel, Role::kAttached, Role::kAttached};
   Buffer<Role> role(n);
   std::fill(role.begin(), role.end(), Role::kNone);
-  for (std::size_t i = 0; i < order.size; ++i) role[order.row[i]] = kRole[found[i].load()];
+  const Parts points(order.size, job);
+  job.run(points.count(), [&](std::size_t part) {
+    for (std::size_t i = points.begin(part); i < points.end(part); ++i) {
+      role[order.row[i]] = kRole[found[i].load(std::memory_order_relaxed)];
+    }
+  });
   return role;
 }
 
@@ -210,7 +215,7 @@ template <class S>
 RegularFiltration2 regular_filtration2(SpatialOrder<S>&& plain, const WeightedRows& rows,
                                        Job& job) {
   RegularFiltration2 out;
-  const auto order = weighted(std::move(plain));
+  const auto order = weighted(std::move(plain), job);
   Mesh2 mesh = regular2(order, job);
   out.simplices = filtration2(order, mesh, job);
   const Filtration2& f = out.simplices;
