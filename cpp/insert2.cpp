@@ -52,6 +52,15 @@ bool Inserter2<S>::provide(std::size_t triangles) {
 }
 
 template <class S>
+bool Inserter2<S>::take_free(Inserter2& other) {
+  const std::size_t before = free_.size();
+  free_.insert(free_.end(), other.free_.begin(), other.free_.end());
+  other.free_.clear();
+  while (other.chunk_ < other.chunk_end_) free_.push_back(static_cast<Id>(8 * other.chunk_++));
+  return free_.size() > before;
+}
+
+template <class S>
 Id Inserter2<S>::new_triangle() {
   Id t;
   if (free_.empty()) {

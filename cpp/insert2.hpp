@@ -53,7 +53,9 @@ class Inserter2 {
     first_ = first;
     last_ = last;
   }
-  bool has_start();  // not while others work
+  // Neither while others work.
+  bool has_start();
+  bool take_free(Inserter2& other);  // slots; false if there are none
   // A point that is hidden is done, too.
   Inserted insert(Id point);
 

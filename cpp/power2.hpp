@@ -7,11 +7,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
 #include <utility>
 
 #include "exact.hpp"
 #include "memory.hpp"
+#include "parallel.hpp"
 #include "sheet.hpp"
 #include "spatial_sort.hpp"
 
@@ -38,11 +38,16 @@ SpatialOrder<WeightedSheet> weighted_type(const SpatialOrder<Sheet>&);
 
 // The same order with each weight beside its point, and without keys.
 template <class S>
-auto weighted(SpatialOrder<S> order) {
+auto weighted(SpatialOrder<S> order, Job& job) {
   decltype(weighted_type(order)) out;
   out.size = order.size;
   out.points = Buffer<Weighted<typename S::Point>>(order.size);
-  for (std::size_t i = 0; i < order.size; ++i) out.points[i] = {order.points[i], order.weight[i]};
+  const Parts parts(order.size, job);
+  job.run(parts.count(), [&](std::size_t part) {
+    for (std::size_t i = parts.begin(part); i < parts.end(part); ++i) {
+      out.points[i] = {order.points[i], order.weight[i]};
+    }
+  });
   out.row = std::move(order.row);
   out.representative = std::move(order.representative);
   out.exponent = order.exponent;

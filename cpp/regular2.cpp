@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -95,6 +96,7 @@ class Insertion {
  private:
   void run_parallel(const Id* begin, const Id* end, std::vector<Id>& later);
   void insert_all(const Id* begin, const Id* end);
+  void make_room();
   bool skip(Id i) const { return (i == corners_[0]) | (i == corners_[1]) | (i == corners_[2]); }
 
   Id n_;
@@ -104,6 +106,16 @@ class Insertion {
   std::vector<std::unique_ptr<Inserter2<S>>> workers_;
 };
 
+// For the first worker: what others left, or more. All triangles together fit into kMost.
+template <class S>
+void Insertion<S>::make_room() {
+  bool found = false;
+  for (std::size_t k = 1; k < workers_.size(); ++k) found |= workers_[0]->take_free(*workers_[k]);
+  if (found) return;
+  if (slots_.room() == Slots2<S>::kMost) throw std::bad_alloc();
+  slots_.reserve(std::min(Slots2<S>::kMost, slots_.room() + slots_.room() / 4 + 4096));
+}
+
 template <class S>
 void Insertion<S>::insert_all(const Id* begin, const Id* end) {
   Inserter2<S>& worker = *workers_[0];
@@ -112,9 +124,7 @@ void Insertion<S>::insert_all(const Id* begin, const Id* end) {
   for (const Id* i = begin; i < end; ++i) {
     if (((i - begin) & 0x3ff) == 0) job_.poll();
     if (skip(*i)) continue;
-    while (worker.insert(*i) != Inserted::kDone) {
-      slots_.reserve(std::min(Slots2<S>::kMost, slots_.room() + slots_.room() / 4 + 4096));
-    }
+    while (worker.insert(*i) != Inserted::kDone) make_room();
   }
 }
 
@@ -184,7 +194,12 @@ Buffer<Role> roles_of(const SpatialOrder<S>& order, const Mesh2& mesh, std::size
   constexpr Role kRole[4] = {Role::kNone, Role::kGabriel, Role::kAttached, Role::kAttached};
   Buffer<Role> role(n);
   std::fill(role.begin(), role.end(), Role::kNone);
-  for (std::size_t i = 0; i < order.size; ++i) role[order.row[i]] = kRole[found[i].load()];
+  const Parts points(order.size, job);
+  job.run(points.count(), [&](std::size_t part) {
+    for (std::size_t i = points.begin(part); i < points.end(part); ++i) {
+      role[order.row[i]] = kRole[found[i].load(std::memory_order_relaxed)];
+    }
+  });
   return role;
 }
 
@@ -210,7 +225,7 @@ template <class S>
 RegularFiltration2 regular_filtration2(SpatialOrder<S>&& plain, const WeightedRows& rows,
                                        Job& job) {
   RegularFiltration2 out;
-  const auto order = weighted(std::move(plain));
+  const auto order = weighted(std::move(plain), job);
   Mesh2 mesh = regular2(order, job);
   out.simplices = filtration2(order, mesh, job);
   const Filtration2& f = out.simplices;

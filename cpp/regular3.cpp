@@ -17,7 +17,7 @@ namespace {
 using Id = std::int32_t;
 
 VertexRows vertices_of(const SpatialOrder3& order, const WeightedRule3& rule, const Filtration3& f,
-                       const WeightedRows& rows, const Job& job) {
+                       const WeightedRows& rows, Job& job) {
   Buffer<Role> role(rows.n);
   std::fill(role.begin(), role.end(), Role::kNone);
   for (std::size_t v = 0; v < order.size; ++v) {

@@ -343,7 +343,12 @@ SpatialOrder<S> build(const double* v, std::size_t n, const double* weight, Job&
   if (gather(o, v, weight, job)) merge_duplicates(o);
   if (weight != nullptr) {
     o.weight = Buffer<double>(o.size);
-    for (std::size_t i = 0; i < o.size; ++i) o.weight[i] = factor * (factor * weight[o.row[i]]);
+    const Parts kept(o.size, job);
+    job.run(kept.count(), [&](std::size_t part) {
+      for (std::size_t i = kept.begin(part); i < kept.end(part); ++i) {
+        o.weight[i] = factor * (factor * weight[o.row[i]]);
+      }
+    });
   }
   return o;
 }

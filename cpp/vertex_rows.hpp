@@ -34,6 +34,6 @@ inline double signed_root(double power) {
 // the input; one whose role is kNone is hidden, or a duplicate that is no lighter than its
 // representative. A vertex that is attached has the least value of its edges.
 VertexRows vertex_rows(const Role* role, const double* weight, const std::int32_t* representative,
-                       std::size_t n, const EdgeView& edges, const Job& job);
+                       std::size_t n, const EdgeView& edges, Job& job);
 
 }  // namespace alphamesh
