@@ -6,6 +6,8 @@ Usage: python docs/make_pictures.py [NAME ...]
 import sys
 from pathlib import Path
 
+import numpy as np
+
 import alphamesh as am
 from alphamesh.film.still import small_png
 from alphamesh.plot import (
@@ -186,6 +188,14 @@ def solids():
     return small_png(figure, dpi=75)
 
 
+def weights():
+    """Draw the crowns of docs/weights.md, smaller, as they are and larger."""
+    rng = np.random.default_rng(4)
+    trees, crowns = rng.random((70, 2)) * [60, 48], rng.lognormal(0.9, 0.5, 70)
+    figure = plot_radii(am.AlphaComplex(trees, weights=crowns**2), [-2, 0, 3])
+    return small_png(figure, dpi=75)
+
+
 def grow():
     """Make the film; written by its own writer, so it is read back."""
     target = PICTURES / "grow.gif"
@@ -205,6 +215,7 @@ MAKERS = {
     "airports.png": airports,
     "horse.png": horse,
     "solids.png": solids,
+    "weights.png": weights,
     "grow.gif": grow,
 }
 

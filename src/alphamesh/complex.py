@@ -17,6 +17,7 @@ from alphamesh.points import Cloud, as_cloud
 from alphamesh.radius import RadiusChoice, choose_radius
 from alphamesh.restricted import RestrictedVoronoi, restricted_voronoi
 from alphamesh.shape import AlphaShape
+from alphamesh.shown import Shown
 from alphamesh.unions import UnionOfDiscs, union_of_balls
 from alphamesh.voronoi import Voronoi, voronoi_of
 
@@ -34,11 +35,8 @@ if TYPE_CHECKING:
 
 __all__ = ["AlphaComplex"]
 
-# Of larger clouds a notebook shows the facts alone, which are there at once.
-_MOST_PICTURED = 50_000
 
-
-class AlphaComplex(Exports):
+class AlphaComplex(Exports, Shown):
     """The alpha complex of a cloud: its Delaunay triangulation and exact filtration.
 
     Parameters
@@ -306,72 +304,6 @@ class AlphaComplex(Exports):
         from alphamesh.film import animate
 
         return animate(self.persistence(), path, **options)
-
-    def view(
-        self,
-        path: str | os.PathLike[str],
-        radius: float | None = None,
-        *,
-        title: str | None = None,
-    ) -> None:
-        """Write a page that shows the complex live under a slider for the radius.
-
-        One HTML file with all in it: it opens from disk in any browser with WebGL 2, and
-        asks for nothing from the network.
-
-        Parameters
-        ----------
-        path : path-like
-            An existing file is replaced once the new one is complete.
-        radius : float, optional
-            The radius that is shown first; by default the one that
-            :meth:`choose_radius` chooses.
-        title : str, optional
-            Its heading; errors are those of :func:`alphamesh.view.write_page`.
-        """
-        from alphamesh.view import write_page
-
-        choice = self.choose_radius() if len(self.points) else None
-        write_page(path, self.persistence(), choice, radius=radius, title=title)
-
-    def widget(
-        self, radius: float | None = None, *, height: int = 560, title: str | None = None
-    ) -> Any:
-        """Return the view of :meth:`view` as a widget for notebooks.
-
-        Parameters
-        ----------
-        radius, title : optional
-            See :meth:`view`.
-        height : int, default 560
-            In pixels.
-
-        Returns
-        -------
-        anywidget.AnyWidget
-            Its ``radius`` is that of the slider: what either side sets, the other sees.
-
-        Raises
-        ------
-        MissingLibraryError
-            If anywidget is not installed (the extra ``widget``).
-        """
-        from alphamesh.view import make_widget
-
-        choice = self.choose_radius() if len(self.points) else None
-        return make_widget(
-            self.persistence(), choice, radius=radius, height=height, title=title
-        )
-
-    def _repr_html_(self) -> str:
-        """Return what notebooks show: a small picture and facts; of huge clouds, facts."""
-        from alphamesh.view.card import complex_card
-
-        choice = shape = None
-        if 0 < len(self.points) <= _MOST_PICTURED:
-            choice = self.choose_radius()
-            shape = self.at(choice.radius)
-        return complex_card(self._filtration, choice, shape)
 
     def __repr__(self) -> str:
         vertices, edges, triangles = (f"{len(rows):,}" for rows in self.simplices)

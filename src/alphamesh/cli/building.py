@@ -59,7 +59,7 @@ radius_option = click.option(
     default=AUTO,
     show_default=True,
     help="Radius in the units of the points, or the rule that chooses it, such as "
-    "all-points or topology:holes=2.",
+    "all-points or topology:holes=2. With --weights it may be negative.",
 )
 
 

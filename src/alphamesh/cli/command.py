@@ -58,7 +58,7 @@ _SECTIONS: dict[str, tuple[str, ...]] = {
     "Points from images": ("count", "threshold", "invert", "seed", "jitter", "replace"),
     "Files of points": (
         *("columns", "file_format", "delimiter", "decimal", "header"),
-        *("skip", "comment", "encoding", "key", "layer"),
+        *("skip", "comment", "encoding", "key", "layer", "weights"),
     ),
     "General": ("threads", "overwrite", "units", "as_json", "quiet", "debug"),
 }
@@ -84,8 +84,8 @@ class Command(click.Command):
         for option in options:
             record = option.get_help_record(ctx)
             if record is not None:
-                section = "General" if option.is_eager else _SECTION_OF.get(option.name or "")
-                found[section or "Options"].append(record)
+                usual = "General" if option.is_eager else "Options"
+                found[_SECTION_OF.get(option.name or "", usual)].append(record)
         return {title: records for title, records in found.items() if records}
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

@@ -45,7 +45,7 @@ _EXAMPLES = (
     "--max-radius",
     type=MostRadius(),
     metavar="R",
-    help="Leave out simplices that come later.  [default: none]",
+    help="Leave out simplices that come later; at least 0 without --weights.  [default: none]",
 )
 @click.option("--squared", is_flag=True, help="Write squared radii, the values of GUDHI.")
 @cloud_options
