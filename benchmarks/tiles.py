@@ -126,9 +126,10 @@ def _measure(  # noqa: PLR0913, PLR0917 (what the command line says)
 ) -> list[str]:
     """Print what a run takes; return it as a row of the table of runs."""
     data = _written(folder / "cloud", kind, count)
-    in_memory = [_speed_in_memory(kind, min(count, kind.in_memory)) for _ in range(2)]
+    size = min(count, kind.in_memory)
+    in_memory = [_in_memory(kind, size) for _ in range(2)]
     with _peak_memory() as peak:
-        start = time.perf_counter()
+        start, work = time.perf_counter(), time.process_time()
         result = tiles.run(
             data,
             kind.radius,
@@ -138,10 +139,11 @@ def _measure(  # noqa: PLR0913, PLR0917 (what the command line says)
             processes=processes,
             threads=threads,
         )
-        taken = time.perf_counter() - start
-    in_memory += [_speed_in_memory(kind, min(count, kind.in_memory)) for _ in range(2)]
-    measure = statistics.median(in_memory)
-    size = sum(file.stat().st_size for file in result.folder.rglob("*") if file.is_file())
+        taken, work = time.perf_counter() - start, time.process_time() - work
+    in_memory += [_in_memory(kind, size) for _ in range(2)]
+    measure, measured_work = (statistics.median(each) for each in zip(*in_memory, strict=True))
+    core_seconds = "-" if processes else f"{work / count * 1e6:.2f}"
+    on_disk = sum(file.stat().st_size for file in result.folder.rglob("*") if file.is_file())
     speed = count / taken
     workers, kind_of = (processes, "process") if processes else (threads, "thread")
     workers = workers or machine.cores()
@@ -154,8 +156,9 @@ def _measure(  # noqa: PLR0913, PLR0917 (what the command line says)
     print(f"time                           {taken:.1f} s, {speed:,.0f} points a second")
     print(f"in memory                      {measure:,.0f} points a second")
     print(f"ratio                          {speed / measure:.2f}")
+    print(f"core seconds a million points  {core_seconds}; in memory {measured_work * 1e6:.2f}")
     print(f"peak memory of all processes   {max(peak) / 1e9:.2f} GB")
-    print(f"result on disk                 {size / 1e9:.2f} GB")
+    print(f"result on disk                 {on_disk / 1e9:.2f} GB")
     return [
         kind.name,
         f"{count:,}",
@@ -165,8 +168,10 @@ def _measure(  # noqa: PLR0913, PLR0917 (what the command line says)
         f"{speed / 1e6:.2f}",
         f"{measure / 1e6:.2f}",
         f"{speed / measure:.2f}",
+        core_seconds,
+        f"{measured_work * 1e6:.2f}",
         f"{max(peak) / 1e9:.1f} GB",
-        f"{size / 1e9:.1f} GB",
+        f"{on_disk / 1e9:.1f} GB",
         str(about["date"]),
         f"{about['load']}",
     ]
@@ -174,7 +179,8 @@ def _measure(  # noqa: PLR0913, PLR0917 (what the command line says)
 
 _HEAD = (
     "cloud in", "points", "tiles", "workers", "time", "million points a second",
-    "the same in memory", "ratio", "peak memory", "result on disk", "date", "load",
+    "the same in memory", "ratio", "core seconds a million points", "the same in memory",
+    "peak memory", "result on disk", "date", "load",
 )  # fmt: skip
 
 
@@ -267,11 +273,13 @@ def _written(folder: Path, kind: Kind, count: int) -> tiles.Dataset:
     return tiles.dataset(folder, dimension=kind.dimension)
 
 
-def _speed_in_memory(kind: Kind, count: int) -> float:
+def _in_memory(kind: Kind, count: int) -> tuple[float, float]:
+    """Return points a second with all cores, and core seconds a point."""
     points = np.random.default_rng(0).random((count, kind.dimension))
-    start = time.perf_counter()
+    start, work = time.perf_counter(), time.process_time()
     am.filtration(points)
-    return count / (time.perf_counter() - start)
+    taken, work = time.perf_counter() - start, time.process_time() - work
+    return count / taken, work / count
 
 
 @contextmanager
