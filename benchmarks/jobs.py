@@ -70,15 +70,20 @@ def _delaunay(threads: int | None) -> Callable[[], Run]:
     return load
 
 
-def space(what: str, threads: int | None) -> Callable[[], Run]:
-    """Return what loads a job in space: "filtration" or "delaunay", of the compiled core."""
+def space(what: str, threads: int | None, *, core: bool = False) -> Callable[[], Run]:
+    """Return what loads a job in space: "filtration" or "delaunay".
+
+    With `core`, the compiled function alone; otherwise the public one, which also looks at
+    its input and makes the object that users get.
+    """
 
     def load() -> Run:
-        core = importlib.import_module("alphamesh._kernels._core")
-        call = {"filtration": core.alpha3, "delaunay": core.delaunay3}[what]
+        kernels = importlib.import_module("alphamesh._kernels._core")
+        call = {"filtration": kernels.alpha3, "delaunay": kernels.delaunay3}[what]
         return lambda points: call(points, threads or os.cpu_count() or 1, None)
 
-    return load
+    public = {"filtration": _filtration, "delaunay": _delaunay}[what](threads)
+    return load if core else public
 
 
 def _scipy() -> Run:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -28,54 +29,87 @@ struct Edge {
   double value;
 };
 
-// The edges of a part, in blocks, as their number is not known beforehand.
-class Found {
+// Puts the edges of the parts one after the other as soon as their places are known, so
+// that few wait, and none twice.
+class Places {
  public:
-  explicit Found(std::size_t expected) : expected_(expected) {}
+  // `most`: no less than there are edges.
+  Places(std::size_t parts, std::size_t most) : ready_(parts) {
+    edges_.ends = Buffer<Id>(2 * most);
+    edges_.radii = Buffer<double>(most);
+  }
 
-  void push(const Edge& edge) {
-    if (at_ == end_) {
-      blocks_.emplace_back(blocks_.empty() ? expected_ : expected_ / 4 + 64);
-      at_ = blocks_.back().begin();
-      end_ = blocks_.back().end();
-    }
-    *at_++ = edge;
-    ++count_;
+  std::vector<Edge> empty_list() {
+    const std::lock_guard<std::mutex> guard(lock_);
+    if (spare_.empty()) return {};
+    std::vector<Edge> list = std::move(spare_.back());
+    spare_.pop_back();
+    list.clear();
+    return list;
   }
-  std::size_t count() const { return count_; }
-  template <class Use>
-  void for_each(Use&& use) const {
-    std::size_t left = count_;
-    for (const Buffer<Edge>& block : blocks_) {
-      const std::size_t here = std::min(left, block.size());
-      for (std::size_t i = 0; i < here; ++i) use(block[i]);
-      left -= here;
-    }
-  }
+  void put(std::size_t part, std::vector<Edge>&& list);
+  Edges3 all();
 
  private:
-  std::size_t expected_, count_ = 0;
-  std::vector<Buffer<Edge>> blocks_;
-  Edge *at_ = nullptr, *end_ = nullptr;
+  struct Part {
+    std::vector<Edge> list;
+    std::size_t first = 0;
+    bool ready = false;
+  };
+
+  std::mutex lock_;
+  std::vector<Part> ready_;
+  std::vector<std::vector<Edge>> spare_;
+  std::size_t next_ = 0, count_ = 0;  // all parts before next_ have places
+  Edges3 edges_;
 };
+
+void Places::put(std::size_t part, std::vector<Edge>&& list) {
+  std::vector<Part> mine;
+  {
+    const std::lock_guard<std::mutex> guard(lock_);
+    ready_[part].list = std::move(list);
+    ready_[part].ready = true;
+    for (; next_ < ready_.size() && ready_[next_].ready; ++next_) {
+      ready_[next_].first = count_;
+      count_ += ready_[next_].list.size();
+      mine.push_back(std::move(ready_[next_]));
+    }
+  }
+  for (const Part& p : mine) {
+    Id* ends = edges_.ends.begin() + 2 * p.first;
+    double* radius = edges_.radii.begin() + p.first;
+    for (const Edge& edge : p.list) {
+      *ends++ = edge.ends[0];
+      *ends++ = edge.ends[1];
+      *radius++ = edge.value;
+    }
+  }
+  const std::lock_guard<std::mutex> guard(lock_);
+  for (Part& p : mine) spare_.push_back(std::move(p.list));
+}
+
+Edges3 Places::all() {
+  if (count_ == edges_.radii.size()) return std::move(edges_);
+  Edges3 out;
+  out.ends = Buffer<Id>(2 * count_);
+  out.radii = Buffer<double>(count_);
+  std::copy(edges_.ends.begin(), edges_.ends.begin() + 2 * count_, out.ends.begin());
+  std::copy(edges_.radii.begin(), edges_.radii.begin() + count_, out.radii.begin());
+  return out;
+}
 
 // Goes around the edges of a range of tetrahedra. Those that it passes need not start again.
 template <class Rule>
 class Ring {
  public:
-  Ring(const Compact3& mesh, const Facets3<Rule>& facets, std::uint8_t* done, std::size_t lo,
-       std::size_t hi)
-      : neighbor_(mesh.neighbor.data()),
-        facets_(facets),
-        code_(facets.code.data()),
-        done_(done),
-        lo_(lo),
-        hi_(hi) {}
+  Ring(const Compact3& mesh, Facets3<Rule>& facets, std::size_t lo, std::size_t hi)
+      : neighbor_(mesh.neighbor.data()), facets_(facets.of.data()), lo_(lo), hi_(hi) {}
 
   // Around the edge of t that has not the positions `leave` and `keep`. False if a lower
   // tetrahedron has it.
   bool go(std::size_t t, int leave, int keep) {
-    facet_.clear();
+    count_ = 0;
     attached_ = false;
     const int end = walk(t, leave, keep);
     return end == kClosed || (end == kHull && walk(t, keep, leave) == kHull);
@@ -84,12 +118,13 @@ class Ring {
   bool attached() const { return attached_; }
   double least(const Buffer<double>& radii) const {
     double value = std::numeric_limits<double>::infinity();
-    for (const Id own : facet_) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Id own = passed_[i];
       const Id code = neighbor_[own];
       const Id owner = Facets3<Rule>::owns(static_cast<std::size_t>(own >> 2), code) ? own : code;
-      const auto t = static_cast<std::size_t>(owner >> 2);
-      const int before = (facets_.before[t] >> (2 * (owner & 3))) & 3;
-      value = std::min(value, radii[static_cast<std::size_t>(facets_.first[t] + before)]);
+      const typename Facets3<Rule>::Of& of = facets_[owner >> 2];
+      const int before = (of.before >> (2 * (owner & 3))) & 3;
+      value = std::min(value, radii[static_cast<std::size_t>(of.first + before)]);
     }
     return value;
   }
@@ -100,51 +135,57 @@ class Ring {
   // Crosses facet `leave`, whose vertex beside the edge is `keep`, and so on. The vertices
   // of a facet stand in the same order on both sides.
   End walk(std::size_t t, int leave, int keep) {
-    std::size_t s = t;
+    const Id* const neighbor = neighbor_;  // bytes are written below: those may not be these
+    typename Facets3<Rule>::Of* const facets = facets_;
+    const std::size_t lo = lo_, size = hi_ - lo_;
+    std::size_t s = t, count = count_;
+    Id* passed = passed_.data();
+    bool attached = attached_;
+    End end = kClosed;
     do {
-      const Id facet = static_cast<Id>(4 * s) + leave, code = neighbor_[facet];
-      facet_.push_back(facet);
-      attached_ |= Rule::attached(code_[s], leave, keep);
-      if (code < 0) return kHull;
+      const Id facet = static_cast<Id>(4 * s) + leave, code = neighbor[facet];
+      if (count == passed_.size()) {
+        passed_.resize(2 * count);
+        passed = passed_.data();
+      }
+      passed[count++] = facet;
+      attached |= Rule::attached(facets[s].code, leave, keep);
       s = static_cast<std::size_t>(code >> 2);
-      if (s < t) return kNotOurs;
+      if (code < 0 || s < t) {
+        end = code < 0 ? kHull : kNotOurs;
+        break;
+      }
       const int back = code & 3, rank = keep - (keep > leave ? 1 : 0);
       leave = rank + (rank >= back ? 1 : 0);
       keep = back;
-      if (s >= lo_ && s < hi_) done_[s] |= kAcross[leave][keep];
+      if (s - lo < size) facets[s].met |= kAcross[leave][keep];
     } while (s != t);
-    return kClosed;
+    attached_ = attached;
+    count_ = count;
+    return end;
   }
 
   const Id* neighbor_;
-  const Facets3<Rule>& facets_;
-  const typename Rule::Code* code_;
-  std::uint8_t* done_;
+  typename Facets3<Rule>::Of* facets_;
   std::size_t lo_, hi_;
-  std::vector<Id> facet_;
+  std::vector<Id> passed_ = std::vector<Id>(64);  // facets, as 4t + i
+  std::size_t count_ = 0;
   bool attached_ = false;
 };
 
 template <class Rule>
 class Collector {
  public:
-  Collector(const SpatialOrder3& order, const Compact3& mesh, const Facets3<Rule>& facets,
-            Rule& rule, const Buffer<double>& triangle_radii)
-      : row_(order.row.data()),
-        rule_(rule),
-        mesh_(mesh),
-        facets_(facets),
-        radii_(triangle_radii),
-        done_(mesh.count) {}
+  Collector(const SpatialOrder3& order, const Compact3& mesh, Facets3<Rule>& facets, Rule& rule,
+            const Buffer<double>& triangle_radii)
+      : row_(order.row.data()), rule_(rule), mesh_(mesh), facets_(facets), radii_(triangle_radii) {}
 
-  void collect(std::size_t lo, std::size_t hi, const Job& job, Found& found) {
-    std::fill(done_.begin() + lo, done_.begin() + hi, std::uint8_t{0});
-    Ring<Rule> ring(mesh_, facets_, done_.data(), lo, hi);
+  void collect(std::size_t lo, std::size_t hi, std::vector<Edge>& found) {
+    Ring<Rule> ring(mesh_, facets_, lo, hi);
     for (std::size_t t = lo; t < hi; ++t) {
-      if (((t - lo) & 0x3fff) == 0) job.poll();
-      for (unsigned left = ~unsigned{done_[t]} & 63u; left != 0; left &= left - 1) {
+      for (unsigned left = ~unsigned{facets_.of[t].met} & 63u; left != 0; left &= left - 1) {
         const Ends& e = kEnds[left & (0u - left)];
-        if (ring.go(t, e.leave, e.keep)) found.push(edge(t, e.i, e.j, ring));
+        if (ring.go(t, e.leave, e.keep)) found.push_back(edge(t, e.i, e.j, ring));
       }
     }
   }
@@ -162,48 +203,33 @@ class Collector {
   const Id* row_;
   Rule& rule_;
   const Compact3& mesh_;
-  const Facets3<Rule>& facets_;
+  Facets3<Rule>& facets_;
   const Buffer<double>& radii_;
-  Buffer<std::uint8_t> done_;  // edges of a tetrahedron seen from a lower one of the same part
 };
 
 }  // namespace
 
 template <class Rule>
-Edges3 edges3(const SpatialOrder3& order, Compact3& mesh, Facets3<Rule>&& given, Rule& rule,
+Edges3 edges3(const SpatialOrder3& order, const Compact3& mesh, Facets3<Rule>& facets, Rule& rule,
               const Buffer<double>& triangle_radii, Job& job) {
-  std::vector<Found> found;
-  const Parts parts(mesh.count, job, 1024);
-  {
-    const Facets3<Rule> facets = std::move(given);
-    Collector<Rule> collector(order, mesh, facets, rule, triangle_radii);
-    for (std::size_t part = 0; part < parts.count(); ++part) {
-      found.emplace_back((parts.end(part) - parts.begin(part)) * 5 / 4 + 64);
-    }
-    job.run(parts.count(), [&](std::size_t part) {
-      collector.collect(parts.begin(part), parts.end(part), job, found[part]);
-      job.advance(0.2 / static_cast<double>(parts.count()));
-    });
-    mesh.neighbor = Buffer<Id>();
-  }
-  std::vector<std::size_t> first(parts.count() + 1, 0);
-  for (std::size_t i = 0; i < found.size(); ++i) first[i + 1] = first[i] + found[i].count();
-  Edges3 out;
-  out.ends = Buffer<Id>(2 * first.back());
-  out.radii = Buffer<double>(first.back());
-  job.run(parts.count(), [&](std::size_t part) {
-    std::size_t e = first[part];
-    found[part].for_each([&](const Edge& edge) {
-      std::copy(edge.ends, edge.ends + 2, &out.ends[2 * e]);
-      out.radii[e++] = edge.value;
-    });
+  constexpr std::size_t kPart = 32768;  // tetrahedra: the edges of a part stay in the cache
+  const std::size_t parts = (mesh.count + kPart - 1) / kPart;
+  // Euler's relation of a ball. Fewer are there if points are hidden.
+  Places places(parts, order.size + triangle_radii.size() - mesh.count - 1);
+  Collector<Rule> collector(order, mesh, facets, rule, triangle_radii);
+  job.run(parts, [&](std::size_t part) {
+    std::vector<Edge> found = places.empty_list();
+    collector.collect(kPart * part, std::min(mesh.count, kPart * (part + 1)), found);
+    places.put(part, std::move(found));
+    job.advance(0.2 / static_cast<double>(parts));
   });
-  return out;
+  return places.all();
 }
 
-template Edges3 edges3<PlainRule3>(const SpatialOrder3&, Compact3&, Facets3<PlainRule3>&&,
+template Edges3 edges3<PlainRule3>(const SpatialOrder3&, const Compact3&, Facets3<PlainRule3>&,
                                    PlainRule3&, const Buffer<double>&, Job&);
-template Edges3 edges3<WeightedRule3>(const SpatialOrder3&, Compact3&, Facets3<WeightedRule3>&&,
-                                      WeightedRule3&, const Buffer<double>&, Job&);
+template Edges3 edges3<WeightedRule3>(const SpatialOrder3&, const Compact3&,
+                                      Facets3<WeightedRule3>&, WeightedRule3&,
+                                      const Buffer<double>&, Job&);
 
 }  // namespace alphamesh

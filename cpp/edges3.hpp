@@ -16,9 +16,13 @@ namespace alphamesh {
 // the lowest of all around it.
 template <class Rule>
 struct Facets3 {
-  Buffer<std::int32_t> first;   // per tetrahedron: the first triangle that belongs to it
-  Buffer<std::uint8_t> before;  // how many of its own precede facet k, two bits each
-  Buffer<typename Rule::Code> code;
+  struct Of {
+    std::int32_t first;        // the first triangle that belongs to the tetrahedron
+    typename Rule::Code code;  // see there
+    std::uint8_t before;       // how many of its own precede facet k, two bits each
+    std::uint8_t met;          // edges that a lower tetrahedron of the same part has come across
+  };
+  Buffer<Of> of;  // per tetrahedron
 
   // Whether the facet of t belongs to it, given what lies across; -1 wraps around.
   static int owns(std::size_t t, std::int32_t code) {
@@ -31,9 +35,9 @@ struct Edges3 {
   Buffer<double> radii;       // (E,)
 };
 
-// Uses up the neighbours and the facets, so that their memory can hold the result.
+// Leaves notes in `met`, which is zero at first.
 template <class Rule>
-Edges3 edges3(const SpatialOrder3& order, Compact3& mesh, Facets3<Rule>&& facets, Rule& rule,
+Edges3 edges3(const SpatialOrder3& order, const Compact3& mesh, Facets3<Rule>& facets, Rule& rule,
               const Buffer<double>& triangle_radii, Job& job);
 
 }  // namespace alphamesh

@@ -90,7 +90,7 @@ void Writer<Rule>::write_tetrahedra(std::size_t t, std::size_t end, Tetrahedra& 
   std::copy(block.radius, block.radius + block.count, &out_.tetrahedron_radii[t]);
   std::copy(block.attached, block.attached + block.count, &attached_[t]);
   const auto* codes = Rule::codes(block);
-  std::copy(codes, codes + block.count, &facets_.code[t]);
+  for (std::size_t i = 0; i < block.count; ++i) facets_.of[t + i].code = codes[i];
   block.count = 0;
 }
 
@@ -105,9 +105,10 @@ std::size_t Writer<Rule>::number_triangles(std::size_t lo, std::size_t hi) {
       before[k] = count;
       count += Facets3<Rule>::owns(t, code[k]);
     }
-    facets_.first[t] = static_cast<Id>(triangles);
-    facets_.before[t] =
-        static_cast<std::uint8_t>((before[1] << 2) | (before[2] << 4) | (before[3] << 6));
+    auto& of = facets_.of[t];
+    of.first = static_cast<Id>(triangles);
+    of.before = static_cast<std::uint8_t>((before[1] << 2) | (before[2] << 4) | (before[3] << 6));
+    of.met = 0;
     triangles += static_cast<std::size_t>(count);
   }
   return triangles;
@@ -117,9 +118,7 @@ template <class Rule>
 void Writer<Rule>::tetrahedra() {
   out_.tetrahedron_radii = Buffer<double>(mesh_.count);
   attached_ = Buffer<std::uint8_t>(mesh_.count);
-  facets_.code = Buffer<typename Rule::Code>(mesh_.count);
-  facets_.before = Buffer<std::uint8_t>(mesh_.count);
-  facets_.first = Buffer<Id>(mesh_.count);
+  facets_.of = Buffer<typename Facets3<Rule>::Of>(mesh_.count);
   first_.assign(parts_.count() + 1, 0);
   job_.run(parts_.count(), [&](std::size_t part) {
     Tetrahedra block;
@@ -193,7 +192,7 @@ void Writer<Rule>::triangles() {
     for (std::size_t t = parts_.begin(part); t < hi;) {
       std::size_t found = 0;
       for (const std::size_t end = std::min(t + kBlock, hi); t < end; ++t) {
-        facets_.first[t] += static_cast<Id>(first_[part]);
+        facets_.of[t].first += static_cast<Id>(first_[part]);
         for (std::size_t k = 0; k < 4; ++k) {
           owned[found] = static_cast<Id>(4 * t + k);
           found += static_cast<std::size_t>(Facets3<Rule>::owns(t, mesh_.neighbor[4 * t + k]));
@@ -230,7 +229,7 @@ Filtration3 filtration3(const SpatialOrder3& order, Compact3&& compact, Rule& ru
     writer.tetrahedra();
     writer.triangles();
   }
-  Edges3 edges = edges3<Rule>(order, mesh, std::move(facets), rule, out.triangle_radii, job);
+  Edges3 edges = edges3<Rule>(order, mesh, facets, rule, out.triangle_radii, job);
   out.edges = std::move(edges.ends);
   out.edge_radii = std::move(edges.radii);
   sort_rows(order, mesh.vertex, job);
