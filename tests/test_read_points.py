@@ -104,6 +104,13 @@ def test_npy_of_any_number_type(read, dtype):
     assert read(npy(TWO.astype(dtype)), "a.npy") == TWO.tolist()
 
 
+def test_npy_of_signalling_nans(read):
+    """Found by fuzzing: NumPy warns when it widens them."""
+    bits = np.array([[0x7FA00000, 0], [0, 0x3F800000]], dtype=np.uint32)
+    points = np.array(read(npy(bits.view(np.float32)), "a.npy"))
+    assert np.array_equal(points, [[np.nan, 0], [0, 1]], equal_nan=True)
+
+
 # NPY and NPZ
 
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import json
+import re
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
-from trust import __main__ as record
-from trust import clouds, predicates, readers
+from trust import clouds, predicates, readers, record
+from trust.__main__ import main
+from trust.fuzz import reading, run
 
 
 @pytest.mark.skipif(predicates.compiler() is None, reason="no C++ compiler")
@@ -64,19 +68,104 @@ def test_damage_is_the_same_for_a_seed():
     assert damaged[0] == damaged[1] != damaged[2]
 
 
-def test_record_becomes_a_table():
+@pytest.mark.skipif(sys.platform == "win32", reason="no signals to stop a slow reader there")
+def test_what_fuzzing_has_found_is_read_or_refused():
+    pytest.importorskip("pyarrow")
+    result = run.replay_readers(100)
+    assert result["failed"] == 0
+    assert result["read"] > 20
+    assert result["refused"] > 20
+
+
+def test_fuzzed_files_know_their_format():
+    data = reading.encoded(5, b"LASF")
+    assert reading.decoded(data, 31) == (5, b"LASF")
+    assert reading.decoded(data, 4) == (1, b"LASF")
+    assert reading.decoded(b"", 31) == (0, b"")
+
+
+PREDICATE = {
+    "campaign": "orient",
+    "cases": 1000,
+    "wrong": 0,
+    "zero": 7,
+    "beyond_filter": 30,
+    "beyond_double_double": 20,
+}
+
+
+def clouds_from(first, cases, refused=0):
+    return {
+        "campaign": "clouds in 2D",
+        "cases": cases,
+        "proved": cases - refused,
+        "refused": refused,
+        "failed": 0,
+        "first": first,
+    }
+
+
+def test_record_becomes_tables():
+    fuzzed = {
+        "campaign": "kernels",
+        "cases": 9000,
+        "cpu_seconds": 150,
+        "places": 1234,
+        "failed": 0,
+    }
     text = record.table(
         {
-            "orient": {
-                "campaign": "orient",
-                "cases": 1000,
-                "wrong": 0,
-                "zero": 7,
-                "beyond_filter": 30,
-                "beyond_double_double": 20,
-            },
-            "clouds in 2D": {"cases": 5000, "proved": 4990, "refused": 10, "failed": 0},
+            "orient": PREDICATE,
+            "clouds in 2D": clouds_from(0, 5000, 10),
+            "kernels": fuzzed,
+            "lines of C++": {"lines": 3000, "run": 2850},
         }
     )
     assert "| `orient` | 1,000 | 7 | 30 | 20 | 0 |" in text
     assert "| clouds in 2D | 5,000 | 4,990 | 10 | 0 |" in text
+    assert "| kernels | 9,000 | 2 | 1,234 | 0 |" in text
+    assert "| lines of C++ | 3,000 | 2,850 | 95.0 % |" in text
+
+
+def test_partial_runs_add_up(tmp_path):
+    whole, lines = tmp_path / "record.json", tmp_path / "lines.json"
+    record.write({"clouds in 2D": clouds_from(0, 500), "orient": PREDICATE}, whole)
+    lines.write_text(
+        "".join(json.dumps(clouds_from(k, 1000, 1)) + "\n" for k in (500, 2500, 1500))
+    )
+    assert main(["merge", str(whole), str(lines)]) == 0
+    found = record.read(whole)
+    assert found["orient"] == PREDICATE
+    assert found["clouds in 2D"]["cases"] == 3500
+    assert found["clouds in 2D"]["refused"] == 3
+    assert found["clouds in 2D"]["seeds"] == [[0, 3500]]
+    with pytest.raises(ValueError, match="both runs have seed 500"):
+        main(["merge", str(whole), str(lines)])
+    other = PREDICATE | {"first": 1}
+    both = record.merged([{"orient": PREDICATE}, {"orient": other}])["orient"]
+    assert both["cases"] == 2000
+    with pytest.raises(ValueError, match="both runs have seed 0"):
+        record.merged([{"orient": PREDICATE}, {"orient": PREDICATE}])
+
+
+def test_fuzzing_and_coverage_join_the_record(tmp_path):
+    fuzzed = {"kernels": {"cases": 9000, "cpu_seconds": 150, "places": 1234, "failed": 0}}
+    total = record.merged([fuzzed, fuzzed])["kernels"]
+    assert (total["cases"], total["cpu_seconds"], total["places"]) == (18000, 300, 1234)
+    python, cpp = tmp_path / "python.json", tmp_path / "cpp.json"
+    python.write_text('{"totals": {"num_statements": 200, "covered_lines": 190}}')
+    cpp.write_text('{"line_total": 300, "line_covered": 270}')
+    path = tmp_path / "record.json"
+    assert main(["merge", str(path), "--coverage", str(python), str(cpp)]) == 0
+    found = record.read(path)
+    assert (found["lines of Python"]["run"], found["lines of C++"]["run"]) == (190, 270)
+
+
+def test_every_promise_names_a_test_that_there_is():
+    root = Path(__file__).parents[1]
+    text = (root / "docs" / "exactness.md").read_text(encoding="utf-8")
+    named = re.findall(r"`(test_\w+\.py)(?:::(\w+))?`", text)
+    assert len(named) > 40
+    for file, test in named:
+        source = (root / "tests" / file).read_text(encoding="utf-8")
+        assert re.search(rf"def {test or 'test_'}", source), f"{file}::{test}"

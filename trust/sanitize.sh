@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs tests of the kernels on a core that is built with sanitizers:
+# Runs the tests of the kernels on a core that is built with sanitizers:
 #
 #   trust/sanitize.sh address [TESTS...]    address and undefined-behaviour sanitizers
 #   trust/sanitize.sh thread [TESTS...]     data races
@@ -18,12 +18,15 @@ case $kind in
 esac
 tests=("$@")
 if ((${#tests[@]} == 0)); then
+  # All that calls the kernels; of data races, what starts threads.
+  names=(core3 delaunay2 delaunay3 find2 frame2 hull2 interrupt2 invariance2 persistence2)
+  names+=(persistence3 pressure queries3 restricted2 sheet3 surface3)
   if [[ $kind == address ]]; then
-    tests=(tests/test_filtration2.py tests/test_core3.py tests/test_voronoi2.py)
-    tests+=(tests/test_restricted2.py tests/test_persistence2.py tests/test_polygons.py)
-  else
-    tests=(tests/test_invariance2.py tests/test_core3.py)
+    names+=(clip2 filtration2 filtration3d nasty_space nerve2 polygons predicates2 queries)
+    names+=(regions restricted_paths2 voronoi2)
   fi
+  tests=("${names[@]/#/tests/test_}")
+  tests=("${tests[@]/%/.py}")
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -44,4 +47,4 @@ preload+=":$("${CXX:-c++}" -print-file-name=libstdc++.so)"
 export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=halt_on_error=1:history_size=4
 export PYTHONPATH="$work/src" PYTHONDONTWRITEBYTECODE=1
-LD_PRELOAD="$preload" "$python" -m pytest -x -p no:cacheprovider -o timeout=0 "${tests[@]}"
+LD_PRELOAD="$preload" "$python" -m pytest -p no:cacheprovider -o timeout=0 "${tests[@]}"

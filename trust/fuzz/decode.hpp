@@ -90,8 +90,10 @@ class Decoder {
 
   double coordinate() {
     switch (encoding_) {
-      case Encoding::whole: return bytes_.small();
-      case Encoding::grid: return bytes_.next() % 5;
+      case Encoding::whole:
+        return bytes_.small();
+      case Encoding::grid:
+        return bytes_.next() % 5;
       case Encoding::ulps: {
         const int v = bytes_.small();
         return nudged(0.1 * (v >> 4), (v & 15) - 8);
@@ -100,7 +102,8 @@ class Decoder {
         const int mantissa = bytes_.small();
         return std::ldexp(mantissa, bytes_.small());
       }
-      default: return bytes_.number();
+      default:
+        return bytes_.number();
     }
   }
 

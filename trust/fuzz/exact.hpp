@@ -140,8 +140,10 @@ class Geometry {
     Id points[4] = {a, b, c, d};
     std::sort(points, points + 4, [this](Id i, Id j) { return before(j, i); });
     for (Id p : points) {
-      const int by = p == a ? turn(b, c, d) : p == b ? turn(c, a, d) : p == c ? turn(a, b, d)
-                                                                            : -turn(a, b, c);
+      const int by = p == a   ? turn(b, c, d)
+                     : p == b ? turn(c, a, d)
+                     : p == c ? turn(a, b, d)
+                              : -turn(a, b, c);
       if (by != 0) return by;
     }
     return 0;

@@ -78,7 +78,8 @@ inline std::vector<Pair> sorted_pairs(const Id* pairs, std::size_t count,
   std::vector<Pair> out;
   for (std::size_t i = 0; i < count; ++i) {
     const Id creator = pairs[2 * i];
-    out.push_back({vertex_number == nullptr ? creator : (*vertex_number)[creator], pairs[2 * i + 1]});
+    out.push_back(
+        {vertex_number == nullptr ? creator : (*vertex_number)[creator], pairs[2 * i + 1]});
   }
   std::sort(out.begin(), out.end());
   return out;

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "delaunay2.hpp"
+#include "distance.hpp"
 #include "hull2.hpp"
 #include "locate2.hpp"
 #include "nearest2.hpp"
@@ -48,7 +49,7 @@ class Plane {
         g_(cloud, queries),
         triangles_(rows_of<3>(f_.triangles.data(), f_.triangle_radii.size())),
         edges_(rows_of<2>(f_.edges.data(), f_.edge_radii.size())) {
-    view_ = {cloud.coordinates.data(), cloud.n,       f_.triangles.data(), triangles_.size(),
+    view_ = {cloud.coordinates.data(), cloud.n,       f_.triangles.data(),     triangles_.size(),
              f_.edges.data(),          edges_.size(), f_.edge_triangles.data()};
   }
 
@@ -112,7 +113,8 @@ void Plane::prove_filtration() {
   }
   std::map<Row<2>, std::set<Id>> around;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) around[without<3>(triangles_[t], k)].insert(static_cast<Id>(t));
+    for (std::size_t k = 0; k < 3; ++k)
+      around[without<3>(triangles_[t], k)].insert(static_cast<Id>(t));
   }
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     std::set<Id> said{f_.edge_triangles[2 * e], f_.edge_triangles[2 * e + 1]};
@@ -126,17 +128,18 @@ void Plane::prove_filtration() {
 }
 
 void Plane::prove_persistence() {
-  const auto pairs = alphamesh::persistence2(view_, f_.triangle_radii.data(),
-                                             f_.edge_radii.data(), job_);
+  const auto pairs =
+      alphamesh::persistence2(view_, f_.triangle_radii.data(), f_.edge_radii.data(), job_);
   const std::vector<double> zero(vertices_.size(), 0.0);
   std::vector<Id> number(cloud_.n, -1);
   for (std::size_t i = 0; i < vertices_.size(); ++i) number[vertices_[i]] = static_cast<Id>(i);
-  const auto expected = reduced({{vertices_.data(), zero.data(), vertices_.size()},
-                                 {f_.edges.data(), f_.edge_radii.data(), edges_.size()},
-                                 {f_.triangles.data(), f_.triangle_radii.data(), triangles_.size()}});
-  require(sorted_pairs(pairs.components.data(), pairs.components.size() / 2, &number) ==
-              expected[0],
-          "components are paired as the matrix says");
+  const auto expected =
+      reduced({{vertices_.data(), zero.data(), vertices_.size()},
+               {f_.edges.data(), f_.edge_radii.data(), edges_.size()},
+               {f_.triangles.data(), f_.triangle_radii.data(), triangles_.size()}});
+  require(
+      sorted_pairs(pairs.components.data(), pairs.components.size() / 2, &number) == expected[0],
+      "components are paired as the matrix says");
   require(sorted_pairs(pairs.loops.data(), pairs.loops.size() / 2) == expected[1],
           "loops are paired as the matrix says");
 }
@@ -186,7 +189,8 @@ void Plane::prove_triangulation_alone() {
   }
   std::map<Row<2>, std::vector<Id>> around;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) around[without<3>(triangles_[i], k)].push_back(static_cast<Id>(i));
+    for (std::size_t k = 0; k < 3; ++k)
+      around[without<3>(triangles_[i], k)].push_back(static_cast<Id>(i));
   }
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -251,8 +255,9 @@ void Plane::prove_cells() {
         require(cells.angles[2 * i] <= cells.angles[2 * i + 1], "arcs run counter-clockwise");
       }
       const std::size_t next = i + 1 == end ? begin : i + 1;
-      require(std::memcmp(&cells.end[i], &cells.start[next], sizeof(Point2)) == 0 || end - begin == 1,
-              "borders are closed to the last bit");
+      require(
+          std::memcmp(&cells.end[i], &cells.start[next], sizeof(Point2)) == 0 || end - begin == 1,
+          "borders are closed to the last bit");
     }
     require(!(cells.arc_length[v] < 0.0), "arcs have a length");
   }
@@ -329,18 +334,10 @@ void Plane::prove_location() {
   }
 }
 
-long double distance(const Vector<double>& p, const Vector<double>& a, const Vector<double>& b) {
-  const long double x = static_cast<long double>(b[0]) - a[0], y = static_cast<long double>(b[1]) - a[1];
-  const long double u = static_cast<long double>(p[0]) - a[0], v = static_cast<long double>(p[1]) - a[1];
-  const long double square = x * x + y * y;
-  const long double t = square > 0 ? std::min(1.0L, std::max(0.0L, (u * x + v * y) / square)) : 0;
-  return std::hypot(u - t * x, v - t * y);
-}
-
 void Plane::prove_nearest() {
   if (edges_.empty()) return;
-  const auto tree = alphamesh::segment_tree2(cloud_.coordinates.data(), f_.edges.data(),
-                                             edges_.size(), job_);
+  const auto tree =
+      alphamesh::segment_tree2(cloud_.coordinates.data(), f_.edges.data(), edges_.size(), job_);
   require(tree.boxes.size() == alphamesh::box_count2(edges_.size()), "boxes are counted");
   const std::size_t m = queries_.size() / 2;
   const auto found = alphamesh::nearest2(
@@ -351,7 +348,8 @@ void Plane::prove_nearest() {
   for (std::size_t q = 0; q < m; ++q) {
     const auto& p = g_.plain(static_cast<Id>(cloud_.n + q));
     long double least = HUGE_VALL;
-    for (const auto& [a, b] : edges_) least = std::min(least, distance(p, g_.plain(a), g_.plain(b)));
+    for (const auto& [a, b] : edges_)
+      least = std::min(least, distance(p, g_.plain(a), g_.plain(b)));
     const auto [a, b] = edges_[static_cast<std::size_t>(found.place[q])];
     const long double slack = 1e-14L * size + 1e-300L;
     require(distance(p, g_.plain(a), g_.plain(b)) <= least + slack, "the nearest edge");

@@ -22,8 +22,8 @@ std::vector<Row<K>> rows_of(const Id* rows, std::size_t count) {
 }
 
 // The rows that stand for themselves, checked: the lowest of equal coordinates.
-inline std::vector<Id> proved_vertices(const Geometry& g, std::size_t n,
-                                       const Id* representative, std::size_t size) {
+inline std::vector<Id> proved_vertices(const Geometry& g, std::size_t n, const Id* representative,
+                                       std::size_t size) {
   require(size == 0 || size == n, "one representative for each point");
   std::map<Vector<double>, Id> first;
   std::vector<Id> vertices;

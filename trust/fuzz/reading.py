@@ -8,6 +8,7 @@ The options are libFuzzer's. ``python -m trust fuzz readers`` runs it with good 
 from __future__ import annotations
 
 import resource
+import shlex
 import sys
 import tempfile
 from importlib import import_module
@@ -59,7 +60,9 @@ def main() -> None:
             file = known[number]
             readers.outcome(file, content, samples[file][1], folder)
 
-        atheris.Setup(sys.argv, one)
+        # A shell is given this when libFuzzer starts itself anew, as it does to merge.
+        again = f"{shlex.quote(sys.executable)} -m trust.fuzz.reading"
+        atheris.Setup([again, *sys.argv[1:]], one)
         atheris.Fuzz()
 
 

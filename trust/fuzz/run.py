@@ -9,6 +9,7 @@ by atheris (``pip install atheris``). Inputs that lead somewhere new are kept in
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import resource
@@ -18,9 +19,11 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -34,14 +37,14 @@ _HERE = Path(__file__).resolve().parent
 _ROOT = _HERE.parents[1]
 _CORPUS = _HERE.parent / "corpus"
 _BUILD = _ROOT / "build" / "fuzz"
-_PROOFS = ("core", "plane", "space")
+_PROOFS = ("core", "plane", "solid", "space")
 _COMMON = ("-std=c++17", "-ffp-contract=off", "-pthread", f"-I{_ROOT / 'cpp'}")
 _SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=undefined")
 # Several parts of tiny clouds, and threads at work on them.
 _CORE = ("-O1", "-g", "-DALPHAMESH_SMALL_PARTS", "-fsanitize=fuzzer-no-link", *_SANITIZED)
 _MOST_BYTES = {"core": 256, "readers": reading.LARGEST}
 # What is kept of a corpus, the smallest inputs first.
-_MOST_KEPT = {"core": 60_000, "readers": 240_000}
+_MOST_KEPT = {"core": 60_000, "readers": 160_000}
 
 
 def _clang() -> str:
@@ -176,31 +179,91 @@ def _kept_files(name: str) -> list[Path]:
 
 
 def keep(what: str) -> None:
-    """Put a minimal set of the inputs that reach everything into ``trust/corpus``."""
-    corpus = _BUILD / f"{what}-corpus"
+    """Put a small set of the inputs that reach everything into ``trust/corpus``."""
+    found = [path.read_bytes() for path in (_BUILD / f"{what}-corpus").iterdir()]
+    found.sort(key=len)
+    (_keep_inputs if what == "core" else _keep_files)(found)
+
+
+def _keep_inputs(found: list[bytes]) -> None:
     with tempfile.TemporaryDirectory() as name:
-        least = Path(name)
-        command = (
-            [str(_BUILD / "fuzzer")]
-            if what == "core"
-            else [sys.executable, "-m", "trust.fuzz.reading"]
-        )
-        options = ["-merge=1", f"-max_len={_MOST_BYTES[what]}", str(least), str(corpus)]
-        subprocess.run([*command, *options], check=True, cwd=_ROOT, stderr=subprocess.DEVNULL)
-        chosen = [path.read_bytes() for path in least.iterdir()]
+        least, all_of_them = Path(name, "least"), Path(name, "all")
+        for folder in (least, all_of_them):
+            folder.mkdir()
+        for data in found:
+            _put(all_of_them, data)
+        options = [
+            "-merge=1",
+            "-use_counters=0",
+            f"-max_len={_MOST_BYTES['core']}",
+            str(least),
+            str(all_of_them),
+        ]
+        subprocess.run([_BUILD / "fuzzer", *options], check=True, stderr=subprocess.DEVNULL)
+        chosen = sorted((path.read_bytes() for path in least.iterdir()), key=len)
+    _keep_within("core", [("core", data) for data in chosen])
+
+
+def _keep_files(found: list[bytes]) -> None:
+    """Keep files that lead from a line of the readers to another as no smaller one does."""
+    chosen = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        samples = readers.samples(folder)
+        known = reading.names(samples)
+        seen: set[tuple[str, int, int]] = set()
+        for data in found:
+            number, content = reading.decoded(data, len(known))
+            file = known[number]
+            steps = _steps(lambda f=file, c=content: _read(f, c, samples[f][1], folder))
+            if steps - seen:
+                seen |= steps
+                chosen.append((f"readers/{file}", content))
+    _keep_within("readers", chosen)
+
+
+def _read(file: str, content: bytes, reader: readers.Reader, folder: Path) -> None:
+    with contextlib.suppress(Exception):  # those that fail are kept, too
+        readers.outcome(file, content, reader, folder)
+
+
+def _steps(work: Callable[[], None]) -> set[tuple[str, int, int]]:
+    """Return the steps from line to line that `work` takes in what reads files."""
+    steps: set[tuple[str, int, int]] = set()
+    inside = tuple(f"{os.sep}{name}{os.sep}" for name in reading.INSTRUMENTED)
+
+    def enter(frame: FrameType, event: str, _: object) -> Any:
+        file = frame.f_code.co_filename
+        if not any(part in file for part in inside):
+            return None
+        last = frame.f_lineno
+
+        def step(frame: FrameType, event: str, _: object) -> Any:
+            nonlocal last
+            if event == "line":
+                steps.add((file, last, frame.f_lineno))
+                last = frame.f_lineno
+            return step
+
+        return step
+
+    sys.settrace(enter)
+    try:
+        work()
+    finally:
+        sys.settrace(None)
+    return steps
+
+
+def _keep_within(what: str, chosen: list[tuple[str, bytes]]) -> None:
+    """Keep as many, the smallest first, as the repository has room for."""
     left = _MOST_KEPT[what]
-    with tempfile.TemporaryDirectory() as name:
-        known = reading.names(readers.samples(Path(name)))
-    for data in sorted(chosen, key=len):
+    for folder, data in chosen:
         left -= len(data)
         if left < 0:
             break
-        folder, content = _CORPUS / what, data
-        if what == "readers":
-            number, content = reading.decoded(data, len(known))
-            folder /= known[number]
-        folder.mkdir(parents=True, exist_ok=True)
-        _put(folder, content)
+        (_CORPUS / folder).mkdir(parents=True, exist_ok=True)
+        _put(_CORPUS / folder, data)
 
 
 # ------------------------------------------------------------------ without a fuzzer

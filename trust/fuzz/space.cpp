@@ -4,15 +4,12 @@
 #include "delaunay2.hpp"
 #include "delaunay3.hpp"
 #include "incidence3.hpp"
-#include "locate3.hpp"
-#include "nearest3.hpp"
 #include "output3.hpp"
-#include "parts.hpp"
 #include "persistence3.hpp"
 #include "proof.hpp"
 #include "sheet.hpp"
+#include "solid.hpp"
 #include "span3.hpp"
-#include "surface3.hpp"
 
 namespace trust {
 namespace {
@@ -69,21 +66,15 @@ class Space {
   void prove_same_in_reverse();
   void prove_triangulation_alone();
   // Only where coordinates need no scaling.
-  void prove_surface();
-  void prove_location();
-  void prove_nearest();
+  void prove_solid();
 
  private:
   void prove_dimension();
   void prove_mesh();
   void look_flat();
   Id cell_apex(Id triangle, Id cell) const {
-    const Row<4>& t = tetrahedra_[static_cast<std::size_t>(cell)];
-    const Row<3>& f = triangles_[static_cast<std::size_t>(triangle)];
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (t[k] != f[k]) return t[k];
-    }
-    return t[3];
+    return apex_of(tetrahedra_[static_cast<std::size_t>(cell)],
+                   triangles_[static_cast<std::size_t>(triangle)]);
   }
 
   const Cloud& cloud_;
@@ -97,7 +88,6 @@ class Space {
   std::vector<Row<2>> edges_;
   std::vector<Id> vertices_;
   Buffer<Id> tetrahedron_triangles_;
-  std::vector<char> inside_;
 };
 
 // Points on a plane are looked at along an axis that it does not hold.
@@ -148,7 +138,8 @@ void Space::prove_mesh() {
     }
     const Id e = cell_apex(static_cast<Id>(f), cells[f][1].first);
     require(g_.side(a, b, c, e) == -side, "tetrahedra on both sides of a triangle");
-    const int s = side > 0 ? g_.in_sphere_or_out(a, b, c, d, e) : g_.in_sphere_or_out(b, a, c, d, e);
+    const int s =
+        side > 0 ? g_.in_sphere_or_out(a, b, c, d, e) : g_.in_sphere_or_out(b, a, c, d, e);
     require(s < 0, "locally Delaunay, ties broken");
   }
 }
@@ -178,7 +169,8 @@ void Space::prove_filtration() {
       claim.least = std::min(claim.least, f_.tetrahedron_radii[static_cast<std::size_t>(t)]);
     }
     prove_value(g_, triangles_[f].data(), 3, claim, kError);
-    for (std::size_t k = 0; k < 3; ++k) around[without<3>(triangles_[f], k)].push_back(static_cast<Id>(f));
+    for (std::size_t k = 0; k < 3; ++k)
+      around[without<3>(triangles_[f], k)].push_back(static_cast<Id>(f));
   }
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const auto [a, b] = edges_[e];
@@ -195,15 +187,14 @@ void Space::prove_filtration() {
 }
 
 void Space::prove_persistence() {
-  const alphamesh::ComplexView3 complex{cloud_.n,           f_.tetrahedra.data(),
-                                        tetrahedra_.size(), f_.triangles.data(),
-                                        triangles_.size(),  f_.triangle_tetrahedra.data(),
-                                        f_.edges.data(),    edges_.size()};
+  const alphamesh::ComplexView3 complex{
+      cloud_.n,          f_.tetrahedra.data(),          tetrahedra_.size(), f_.triangles.data(),
+      triangles_.size(), f_.triangle_tetrahedra.data(), f_.edges.data(),    edges_.size()};
   const Buffer<Id> triangle_edges = alphamesh::triangle_edges3(complex, job_);
   for (std::size_t i = 0; i < 3 * triangles_.size(); ++i) {
-    require(edges_[static_cast<std::size_t>(triangle_edges[i])] ==
-                without<3>(triangles_[i / 3], i % 3),
-            "edges lie opposite to the vertices of triangles");
+    require(
+        edges_[static_cast<std::size_t>(triangle_edges[i])] == without<3>(triangles_[i / 3], i % 3),
+        "edges lie opposite to the vertices of triangles");
   }
   tetrahedron_triangles_ = alphamesh::tetrahedron_triangles3(complex, job_);
   for (std::size_t i = 0; i < 4 * tetrahedra_.size(); ++i) {
@@ -224,9 +215,9 @@ void Space::prove_persistence() {
                {f_.edges.data(), f_.edge_radii.data(), edges_.size()},
                {f_.triangles.data(), f_.triangle_radii.data(), triangles_.size()},
                {f_.tetrahedra.data(), f_.tetrahedron_radii.data(), tetrahedra_.size()}});
-  require(sorted_pairs(pairs.components.data(), pairs.components.size() / 2, &number) ==
-              expected[0],
-          "components are paired as the matrix says");
+  require(
+      sorted_pairs(pairs.components.data(), pairs.components.size() / 2, &number) == expected[0],
+      "components are paired as the matrix says");
   require(sorted_pairs(pairs.loops.data(), pairs.loops.size() / 2) == expected[1],
           "loops are paired as the matrix says");
   require(sorted_pairs(pairs.voids.data(), pairs.voids.size() / 2) == expected[2],
@@ -278,7 +269,8 @@ void Space::prove_triangulation_alone() {
   const auto rows = rows_of<4>(mesh.vertex.data(), mesh.count);
   std::map<Row<3>, std::vector<Id>> around;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t k = 0; k < 4; ++k) around[without<4>(rows[i], k)].push_back(static_cast<Id>(i));
+    for (std::size_t k = 0; k < 4; ++k)
+      around[without<4>(rows[i], k)].push_back(static_cast<Id>(i));
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (std::size_t k = 0; k < 4; ++k) {
@@ -293,171 +285,9 @@ void Space::prove_triangulation_alone() {
   require(sorted == expected, "the triangulation is that of the filtration");
 }
 
-void Space::prove_surface() {
-  std::vector<double> values(f_.tetrahedron_radii.begin(), f_.tetrahedron_radii.end());
-  std::sort(values.begin(), values.end());
-  const double radius = chosen_radius(values, cloud_.choice);
-  for (double v : f_.tetrahedron_radii) inside_.push_back(v <= radius);
-  const bool* inside = reinterpret_cast<const bool*>(inside_.data());
-  const auto skin = alphamesh::surface3(
-      {cloud_.coordinates.data(), cloud_.n, f_.tetrahedra.data(), tetrahedra_.size(),
-       f_.triangles.data(), triangles_.size(), f_.triangle_tetrahedra.data(),
-       tetrahedron_triangles_.data(), inside},
-      job_);
-  const auto part = alphamesh::parts(tetrahedra_.size(), f_.triangle_tetrahedra.data(),
-                                     triangles_.size(), inside, nullptr, job_);
-  std::vector<Id> facets, region, before;
-  for (std::size_t f = 0; f < triangles_.size(); ++f) {
-    const Id s = f_.triangle_tetrahedra[2 * f], t = f_.triangle_tetrahedra[2 * f + 1];
-    const Id a = s < 0 ? -1 : part[s], b = t < 0 ? -1 : part[t];
-    require((a >= 0) != (b >= 0) || a == b, "parts that share a triangle are one");
-    if ((a >= 0) == (b >= 0)) continue;
-    facets.push_back(static_cast<Id>(f));
-    region.push_back(std::max(a, b));
-    before.push_back(-1 - std::min(a, b));
-  }
-  require(facets == std::vector<Id>(skin.triangle.data(), skin.triangle.data() + skin.triangle.size()),
-          "facets are the triangles with one chosen tetrahedron");
-  for (std::size_t i = 0; i < facets.size(); ++i) {
-    const std::size_t f = static_cast<std::size_t>(facets[i]);
-    const Id* c = skin.corner.data() + 3 * i;
-    require(std::set<Id>(c, c + 3) == std::set<Id>(triangles_[f].begin(), triangles_[f].end()),
-            "corners are those of the triangle");
-    const Id s = f_.triangle_tetrahedra[2 * f], t = f_.triangle_tetrahedra[2 * f + 1];
-    const Id cell = s >= 0 && inside_[static_cast<std::size_t>(s)] != 0 ? s : t;
-    require(g_.side(c[0], c[1], c[2], cell_apex(facets[i], cell)) < 0, "facets look outwards");
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Id other = skin.across[3 * i + k];
-      const Id from = c[(k + 1) % 3], to = c[(k + 2) % 3];
-      bool back = false;
-      for (std::size_t m = 0; m < 3; ++m) {
-        const std::size_t o = 3 * static_cast<std::size_t>(other);
-        if (skin.across[o + m] != static_cast<Id>(i)) continue;
-        const bool meets = skin.corner[o + (m + 1) % 3] == to && skin.corner[o + (m + 2) % 3] == from;
-        back |= meets && skin.vertex[o + (m + 1) % 3] == skin.vertex[3 * i + (k + 2) % 3] &&
-                skin.vertex[o + (m + 2) % 3] == skin.vertex[3 * i + (k + 1) % 3];
-      }
-      require(back, "facets meet in opposite directions, at common vertices");
-      require(skin.shell[i] == skin.shell[other], "a shell is connected");
-      require(skin.row[skin.vertex[3 * i + k]] == c[k], "vertices stand for corners");
-    }
-  }
-  std::map<Row<2>, int> edge_uses;  // of vertices: an edge of the surface has two facets
-  for (std::size_t i = 0; i < facets.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Id v = skin.vertex[3 * i + (k + 1) % 3], w = skin.vertex[3 * i + (k + 2) % 3];
-      ++edge_uses[{std::min(v, w), std::max(v, w)}];
-    }
-  }
-  for (const auto& [edge, uses] : edge_uses) require(uses == 2, "the surface is a manifold");
-  if (facets.empty()) return;
-  const auto outer =
-      alphamesh::outer_shells3(skin.shell.data(), region.data(), before.data(), facets.size());
-  std::map<Id, std::set<Id>> outer_of;
-  for (std::size_t i = 0; i < facets.size(); ++i) {
-    if (outer[skin.shell[i]]) outer_of[region[i]].insert(skin.shell[i]);
-  }
-  const std::set<Id> regions(region.begin(), region.end());
-  require(outer_of.size() == regions.size(), "each region has an outer shell");
-}
-
-void Space::prove_location() {
-  std::vector<Id> label;
-  for (std::size_t t = 0; t < tetrahedra_.size(); ++t) label.push_back(inside_[t] != 0 ? static_cast<Id>(t % 3) : -1);
-  const std::size_t m = queries_.size() / 3;
-  alphamesh::Located3 found;
-  try {
-    found = alphamesh::locate3({cloud_.coordinates.data(), cloud_.n, f_.tetrahedra.data(),
-                                tetrahedra_.size(), f_.triangle_tetrahedra.data(),
-                                tetrahedron_triangles_.data(), label.data()},
-                               queries_.data(), m, job_);
-  } catch (const alphamesh::BadCoordinates&) {
-    return;  // queries and points are too far apart in scale
-  }
-  for (std::size_t q = 0; q < m; ++q) {
-    const Id query = static_cast<Id>(cloud_.n + q);
-    Id lowest = -1;
-    bool all = true, strictly = false;
-    int holding = 0;
-    for (std::size_t t = 0; t < tetrahedra_.size(); ++t) {
-      Row<4> v = tetrahedra_[t];
-      const int turn = g_.side(v[0], v[1], v[2], v[3]);
-      int least = 1;
-      for (std::size_t k = 0; k < 4; ++k) {
-        Row<4> replaced = v;
-        replaced[k] = query;
-        least = std::min(least, turn * g_.side(replaced[0], replaced[1], replaced[2], replaced[3]));
-      }
-      if (least < 0) continue;
-      ++holding;
-      strictly |= least > 0;
-      if (label[t] < 0) {
-        all = false;
-      } else if (lowest < 0 || label[t] < lowest) {
-        lowest = label[t];
-      }
-    }
-    require(found.label[q] == lowest, "the lowest label of the tetrahedra that hold a point");
-    if (lowest < 0) {
-      require(found.side[q] == -1, "outside");
-    } else if (strictly) {
-      require(found.side[q] == 1, "inside of a tetrahedron");
-    } else if (!all) {
-      require(found.side[q] == 0, "where labelled and other tetrahedra meet");
-    }
-  }
-}
-
-long double distance(const Vector<double>& point, const Vector<double>& first,
-                     const Vector<double>& second, const Vector<double>& third) {
-  using Long = Vector<long double>;
-  const auto wide = [](const Vector<double>& v) { return Long{v[0], v[1], v[2]}; };
-  const Long p = wide(point), corners[3] = {wide(first), wide(second), wide(third)};
-  const auto length = [](const Long& v) { return std::hypot(v[0], v[1], v[2]); };
-  long double least = HUGE_VALL;
-  for (int k = 0; k < 3; ++k) {
-    const Long a = corners[k], u = corners[(k + 1) % 3] - a, w = p - a;
-    const long double square = dot(u, u);
-    const long double t = square > 0 ? std::min(1.0L, std::max(0.0L, dot(w, u) / square)) : 0;
-    least = std::min(least, length(Long{w[0] - t * u[0], w[1] - t * u[1], w[2] - t * u[2]}));
-  }
-  const Long u = corners[1] - corners[0], v = corners[2] - corners[0], w = p - corners[0];
-  const Long n = cross(u, v);
-  const long double square = dot(n, n);
-  if (square > 0) {
-    const long double s = dot(cross(w, v), n) / square, t = dot(cross(u, w), n) / square;
-    if (s >= 0 && t >= 0 && s + t <= 1) {
-      least = std::min(least, std::fabs(dot(w, n)) / std::sqrt(square));
-    }
-  }
-  return least;
-}
-
-void Space::prove_nearest() {
-  if (triangles_.empty()) return;
-  const auto tree = alphamesh::triangle_tree3(cloud_.coordinates.data(), f_.triangles.data(),
-                                              triangles_.size(), job_);
-  require(tree.boxes.size() == alphamesh::box_count3(triangles_.size()), "boxes are counted");
-  const std::size_t m = queries_.size() / 3;
-  const auto found = alphamesh::nearest3(
-      {tree.triangles.data(), tree.place.data(), triangles_.size(), tree.boxes.data()},
-      queries_.data(), m, job_);
-  long double size = 0;
-  for (double v : cloud_.coordinates) size = std::max<long double>(size, std::fabs(v));
-  const long double slack = 1e-12L * size + 1e-300L;
-  for (std::size_t q = 0; q < m; ++q) {
-    const auto& p = g_.plain(static_cast<Id>(cloud_.n + q));
-    long double least = HUGE_VALL;
-    for (const auto& [a, b, c] : triangles_) {
-      least = std::min(least, distance(p, g_.plain(a), g_.plain(b), g_.plain(c)));
-    }
-    require(found.place[q] >= 0 && static_cast<std::size_t>(found.place[q]) < triangles_.size(),
-            "a triangle is nearest");
-    const auto [a, b, c] = triangles_[static_cast<std::size_t>(found.place[q])];
-    require(distance(p, g_.plain(a), g_.plain(b), g_.plain(c)) <= least + slack,
-            "the nearest triangle");
-    require(std::fabs(found.distance[q] - least) <= slack, "the distance of the nearest triangle");
-  }
+void Space::prove_solid() {
+  trust::prove_solid({cloud_, queries_, f_, tetrahedra_, triangles_, tetrahedron_triangles_, g_},
+                     job_);
 }
 
 }  // namespace
@@ -472,9 +302,7 @@ void prove_space(const Cloud& cloud, const std::vector<double>& queries) {
   if (cloud.again) space.prove_same_in_reverse();
   space.prove_triangulation_alone();
   if (built.order.exponent != 0 || built.dimension != 3) return;
-  space.prove_surface();
-  space.prove_location();
-  space.prove_nearest();
+  space.prove_solid();
 }
 
 }  // namespace trust

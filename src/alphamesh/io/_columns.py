@@ -230,7 +230,8 @@ def exact_floats(source: Source, column: NDArray[Any], name: str | int) -> Float
                 f"holds integers beyond 2**53 in column {name!r}, {where}, which float64 "
                 "would round; subtract a common offset before saving"
             )
-    with np.errstate(over="ignore"):
+    # Signalling NaNs would warn.
+    with np.errstate(over="ignore", invalid="ignore"):
         return column.astype(np.float64)
 
 
