@@ -20,7 +20,7 @@ tests=("$@")
 if ((${#tests[@]} == 0)); then
   # All that calls the kernels; of data races, what starts threads.
   names=(core3 delaunay2 delaunay3 find2 frame2 hull2 interrupt2 invariance2 persistence2)
-  names+=(persistence3 pressure queries3 restricted2 sheet3 surface3)
+  names+=(persistence3 pressure queries3 regular2 regular3 restricted2 sheet3 surface3)
   if [[ $kind == address ]]; then
     names+=(clip2 filtration2 filtration3d nasty_space nerve2 polygons predicates2 queries)
     names+=(regions restricted_paths2 voronoi2)
