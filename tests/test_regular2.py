@@ -45,7 +45,16 @@ def assert_by_definition(points, weights):
     for simplex, power in truth.powers.items():
         error = relative_error(values[simplex], power)
         assert error <= PROMISED or within_a_subnormal(values[simplex], power)
+    assert_equal_where_equal(values, truth.powers)
     assert_flat_arrays(result)
+
+
+def assert_equal_where_equal(values, powers):
+    """Where an edge enters with a triangle, it has its value to the last bit."""
+    for edge in (s for s in powers if len(s) == 2):
+        cofaces = [t for t in powers if len(t) == 3 and {*edge} <= {*t}]
+        if cofaces and powers[edge] == min(powers[t] for t in cofaces):
+            assert values[edge] == min(values[t] for t in cofaces)
 
 
 def representatives(result, n):
