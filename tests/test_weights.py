@@ -301,6 +301,7 @@ def test_isolated_vertices_of_a_mesh_have_their_own_values():
     [
         ([1.0, 2.0], "one weight for each of the 3 points; got 2", ()),
         (5.0, "numpy.full", ()),
+        ("w", "give the column itself", ()),
         ([[1.0], [2.0], [3.0]], "ravel", ()),
         (np.ones((3, 2)), "shape", ()),
         (["a", "b", "c"], "must be numbers", ()),
