@@ -71,7 +71,7 @@ std::size_t CellMaker::count_pieces(Id v) const {
 
 // The radius of the disc of a row.
 double CellMaker::radius(Id v) const {
-  if (view_.weights == nullptr) return r_;
+  if (view_.weights == nullptr || r_ * r_ == HUGE_VAL) return std::max(0.0, r_);
   return std::sqrt(std::max(0.0, view_.weight(v) + std::copysign(r_ * r_, r_)));
 }
 

@@ -251,6 +251,25 @@ def test_classes_alive_at_a_negative_radius():
         found.alive(-1.5, 5)
 
 
+@pytest.mark.parametrize("d", DIMENSIONS)
+def test_cycles_are_born_with_their_last_simplex(d):
+    points, weights = cloud(150, d, 0.004)
+    cx = am.AlphaComplex(points, weights=weights + 0.02)
+    found = cx.persistence()
+    lasting = np.flatnonzero(found.births[1] < found.deaths[1])
+    assert (found.births[1][lasting] < 0).any()
+    values = _values(cx.simplices[1], cx.radii[1])
+    for ring, birth in zip(found.loops(lasting), found.births[1][lasting], strict=True):
+        sides = np.sort(np.column_stack((ring, np.roll(ring, -1))), axis=1).tolist()
+        assert max(values[tuple(side)] for side in sides) == birth
+    if d == 3:
+        voids = np.flatnonzero(found.births[2] < found.deaths[2])
+        values = _values(cx.simplices[2], cx.radii[2])
+        for void in voids[:10]:
+            triangles = np.sort(found.voids([void]).triangles, axis=1).tolist()
+            assert max(values[tuple(row)] for row in triangles) == found.births[2][void]
+
+
 # ---------------------------------------------------------------- radii of both signs
 
 
@@ -282,6 +301,7 @@ def test_isolated_vertices_of_a_mesh_have_their_own_values():
     [
         ([1.0, 2.0], "one weight for each of the 3 points; got 2", ()),
         (5.0, "numpy.full", ()),
+        ("w", "give the column itself", ()),
         ([[1.0], [2.0], [3.0]], "ravel", ()),
         (np.ones((3, 2)), "shape", ()),
         (["a", "b", "c"], "must be numbers", ()),

@@ -225,6 +225,14 @@ def test_scale_by_powers_of_two():
         )
 
 
+def test_beside_a_huge_radius_weights_are_nothing():
+    cx = cloud(10, 0.01)
+    cells = cx.restricted_voronoi(1e200)
+    assert (cells.disc_radii == 1e200).all()
+    assert cells.outer_length == pytest.approx(2e200 * np.pi)
+    assert len(cx.restricted_voronoi(-1e200).start) == 0
+
+
 def test_radii_that_cannot_be():
     cx = cloud(10, 0.01)
     for radius in (np.nan, np.inf, -np.inf, "1"):

@@ -72,6 +72,11 @@ def as_weights(weights: Any, count: int) -> FloatArray:
 
 
 def _shape_error(array: np.ndarray[Any, Any], count: int) -> WeightsError:
+    if array.ndim == 0 and array.dtype.kind in "US":
+        return WeightsError(
+            f"weights must be numbers, not the name {array.item()!r} of a column; give the "
+            f"column itself: table[{array.item()!r}]"
+        )
     if array.ndim == 0:
         remedy = f"weights=numpy.full({count}, {array.item()!r})"
         return WeightsError(f"weights must be one number for each point: {remedy}, or {_OMIT}")

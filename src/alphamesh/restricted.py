@@ -370,8 +370,10 @@ def _disc_radii(weights: FloatArray | None, radius: float) -> FloatArray | None:
     """Return the radius of each disc; None without weights."""
     if weights is None:
         return None
-    squares = weights + signed_square(np.array(radius))
-    return read_only(np.sqrt(np.maximum(squares, 0.0)))
+    square = float(signed_square(np.array(radius)))
+    if math.isinf(square):  # beside which weights are nothing
+        return read_only(np.full(len(weights), max(radius, 0.0)))
+    return read_only(np.sqrt(np.maximum(weights + square, 0.0)))
 
 
 def _refuse_others(filtration: Filtration) -> None:
