@@ -79,7 +79,7 @@ nb::tuple tile2(const Points2& points, const Rows<Row>& rows, const Table& bound
     own = tile_points(points.data(), n, rows.data(), order.representative.data(), box);
   });
   return nb::make_tuple(
-      points_tuple(std::move(own)), columns_array(std::move(share.vertices)),
+      points_tuple(std::move(own)), columns_array(std::move(own.vertices)),
       columns_array(std::move(share.edges)), columns_array(std::move(share.edge_radii)),
       columns_array(std::move(share.edge_kinds)), columns_array(std::move(share.triangles)),
       columns_array(std::move(share.triangle_radii)), list_array(std::move(share.boundary), 3),
@@ -125,7 +125,7 @@ nb::tuple tile_share3_py(const Points3& points, std::size_t real, const Rows<Row
     own = tile_points(points.data(), real, rows.data(), representative.data(), box);
   });
   return nb::make_tuple(
-      points_tuple(std::move(own)), columns_array(std::move(share.vertices)),
+      points_tuple(std::move(own)), columns_array(std::move(own.vertices)),
       columns_array(std::move(share.edges)), columns_array(std::move(share.edge_radii)),
       columns_array(std::move(share.triangles)), columns_array(std::move(share.triangle_radii)),
       columns_array(std::move(share.triangle_kinds)), columns_array(std::move(share.tetrahedra)),

@@ -53,10 +53,11 @@ struct TileBox {
   }
 };
 
-// The points of a tile, ascending by row, and for each the lowest row of an equal one.
+// The points of a tile, ascending by row, and for each the lowest row of an equal one; the
+// rows that stand for themselves are its vertices.
 template <class Row>
 struct TilePoints {
-  Columns<Row> rows, representative;
+  Columns<Row> rows, representative, vertices;
   Columns<double> points;
 };
 
@@ -67,13 +68,14 @@ TilePoints<Row> tile_points(const double* v, std::size_t real, const Row* rows,
   std::vector<std::uint8_t> inside(real);
   std::size_t count = 0;
   for (std::size_t i = 0; i < real; ++i) count += inside[i] = box.holds(v + D * i);
-  TilePoints<Row> out{{1, count}, {1, count}, {D, count}};
+  TilePoints<Row> out{{1, count}, {1, count}, {1, count}, {D, count}};
   std::size_t to = 0;
   for (std::size_t i = 0; i < real; ++i) {
     if (inside[i] == 0) continue;
+    const Row lowest = representative == nullptr ? rows[i] : rows[representative[i]];
     out.rows.column(0)[to] = rows[i];
-    out.representative.column(0)[to] =
-        representative == nullptr ? rows[i] : rows[representative[i]];
+    out.representative.column(0)[to] = lowest;
+    if (lowest == rows[i]) out.vertices.column(0)[out.vertices.count++] = lowest;
     for (std::size_t k = 0; k < D; ++k) out.points.column(k)[to] = v[D * i + k];
     ++to;
   }

@@ -45,7 +45,6 @@ class Maker {
         known_(mesh.triangles),
         vertices_(order.size),
         cells_(mesh.triangles) {
-    std::size_t own = 0;
     for (std::size_t i = 0; i < order.size; ++i) {
       const auto at = static_cast<std::size_t>(order.row[i]);
       const double* p = order.exponent == 0 ? &p_[i].x : v + 2 * at;  // along the curve
@@ -53,13 +52,7 @@ class Maker {
       row_[i] = rows[at];
       place_[i] =
           static_cast<std::uint8_t>(inside | (inside << 1) | ((!inside | box.near(p)) << 2));
-      own += inside;
     }
-    out_.vertices = Columns<Row>(1, own);
-    for (std::size_t i = 0; i < order.size; ++i) {
-      if (inside(static_cast<Id>(i))) out_.vertices.column(0)[out_.vertices.count++] = row_[i];
-    }
-    std::sort(out_.vertices.column(0), out_.vertices.column(0) + own);
   }
 
   TileShare2<Row> make(Job& job) {

@@ -17,7 +17,7 @@ namespace alphamesh {
 // lexicographically first vertex; its rows ascend.
 template <class Row>
 struct TileShare2 {
-  Columns<Row> vertices, edges, triangles;
+  Columns<Row> edges, triangles;
   Columns<double> edge_radii, triangle_radii;
   Columns<std::int8_t> edge_kinds;             // SimplexKind: 1, and one more for each coface
   std::vector<std::int32_t> boundary;          // (b, 3), rows of the tile's input: an edge with its

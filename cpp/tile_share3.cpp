@@ -77,20 +77,12 @@ class Maker {
         vertices_(view.n),
         cells_(view.tetrahedron_count) {
     const PowerOfTwo factor(exponent_);
-    std::size_t own = 0;
     for (std::size_t i = 0; i < view.n; ++i) {
       const double* p = view.points + 3 * i;
       const bool inside = i < view.real && box.holds(p);
       p_[i] = {factor * p[0], factor * p[1], factor * p[2]};
       place_[i] = inside ? kInside | (box.near(p) ? kShared : 0) : kShared;
-      if (inside && view.representative[i] == static_cast<Id>(i)) {
-        place_[i] |= kKnown;
-        ++own;
-      }
-    }
-    out_.vertices = Columns<Row>(1, own);
-    for (std::size_t i = 0; i < view.n; ++i) {
-      if (has(i, kKnown)) out_.vertices.column(0)[out_.vertices.count++] = view.rows[i];
+      if (inside && view.representative[i] == static_cast<Id>(i)) place_[i] |= kKnown;
     }
   }
 

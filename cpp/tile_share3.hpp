@@ -27,7 +27,7 @@ struct TileView3 {
 // See TileShare2.
 template <class Row>
 struct TileShare3 {
-  Columns<Row> vertices, edges, triangles, tetrahedra;
+  Columns<Row> edges, triangles, tetrahedra;
   Columns<double> edge_radii, triangle_radii, tetrahedron_radii;
   Columns<std::int8_t> triangle_kinds;
   std::vector<std::int32_t> boundary;          // (b, 4), rows of the input: a triangle, counter-
