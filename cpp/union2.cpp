@@ -185,8 +185,11 @@ TriangleRecord Union2::triangle(std::size_t t) const {
     const double lean_ij = weight(corner[i]) - weight(corner[j]);
     const double lean_ik = weight(corner[i]) - weight(corner[k]);
     if (view_.weights != nullptr) {
-      off_ij += lean_ik - lean_ij * (across / sq_ij);
-      off_ik += lean_ij - lean_ik * (across / sq_ik);
+      // Each share from its own end: the third corner may almost coincide with one of them.
+      const double at_j = off_ik, at_k = off_ij;
+      const double lean_jk = weight(corner[j]) - weight(corner[k]);
+      off_ij += (at_j * lean_ik + across * lean_jk) / sq_ij;
+      off_ik += (at_k * lean_ij - across * lean_jk) / sq_ik;
     }
     out.share[i] =
         0.125 * ((sq_ij + lean_ij) * (off_ij / size) + (sq_ik + lean_ik) * (off_ik / size));
