@@ -65,6 +65,19 @@ def test_weights_in_fifty_digits(kind, seed):
         assert found.ball_surface_areas == pytest.approx(exact.areas, abs=1e-11 * size**2)
 
 
+@pytest.mark.parametrize("noise", [1e-3, 1e-8, 1e-13])
+def test_almost_duplicates_of_different_weights_in_fifty_digits(noise):
+    rng = np.random.default_rng(7)
+    points = rng.integers(0, 3, (16, 3)) + noise * rng.normal(size=(16, 3))
+    built = am.AlphaComplex(points, weights=rng.integers(2, 5, 16) / 4).filtration
+    for radius in (-0.45, 0.05, 0.6, 4.0):
+        found, exact = union_of_balls(built, radius), Balls(built, radius)
+        size = found.ball_radii.max()
+        assert found.volume == pytest.approx(exact.volume, rel=1e-11)
+        assert found.ball_volumes == pytest.approx(exact.volumes, abs=1e-11 * size**3)
+        assert found.ball_surface_areas == pytest.approx(exact.areas, abs=1e-11 * size**2)
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 @pytest.mark.parametrize("kind", sorted(WEIGHTS))
 def test_weights_equal_sampling(dimension, kind):
