@@ -52,8 +52,10 @@ Flap Balls3::flap(const Id* corner) const {
     const Vector u = p[k] - p[a], v = p[k] - p[b], w = p[b] - p[a];
     double top = dot(u, v);
     if (weights_ != nullptr) {
-      const double wa = weight(corner[a]), along = dot(u, w) / dot(w, w);
-      top += (wa - weight(corner[k])) - along * (wa - weight(corner[b]));
+      // Each share from its own end: the third corner may almost coincide with one of them.
+      const double wk = weight(corner[k]), length_sq = dot(w, w);
+      top += (-dot(v, w) * (weight(corner[a]) - wk) + dot(u, w) * (weight(corner[b]) - wk)) /
+             length_sq;
     }
     away[k] = 0.5 * side.length * (top / size);
     if (side.circle < out.lens[least].circle) least = k;
@@ -141,10 +143,10 @@ void Balls3::share_cell(const Id* corner, const Vector* normal, double det, doub
       // The distance of the face's centre from each edge, times the normal over the edge.
       double off_ij = 0.5 * dot(ik, jk), off_ik = -0.5 * dot(ij, jk);
       if (weights_ != nullptr) {
-        const double across = dot(ij, ik), lean_ij = weight(corner[i]) - weight(corner[j]),
-                     lean_ik = weight(corner[i]) - weight(corner[k]);
-        off_ij += 0.5 * (lean_ik - lean_ij * (across / dot(ij, ij)));
-        off_ik += 0.5 * (lean_ij - lean_ik * (across / dot(ik, ik)));
+        const double wi = weight(corner[i]), wj = weight(corner[j]), wk = weight(corner[k]);
+        const double at_i = dot(ij, ik), at_j = -dot(ij, jk), at_k = dot(ik, jk);
+        off_ij += 0.5 * (at_j * (wi - wk) + at_i * (wj - wk)) / dot(ij, ij);
+        off_ik += 0.5 * (at_k * (wi - wj) + at_i * (wk - wj)) / dot(ik, ik);
       }
       share[i] += height * (reach[i][j] * off_ij + reach[i][k] * off_ik) / 6.0;
     }

@@ -26,8 +26,8 @@ struct Lens {
 };
 
 struct EdgeRecord {
-  Id v[2];
-  double half[2], share[2], area;
+  Id v[2], hole[2];
+  double half[2], share[2], area, hole_area, hole_perimeter;
 };
 
 struct TriangleRecord {
@@ -46,7 +46,7 @@ class Union2 {
   Lens lens(Id i, Id j) const;
   int open_sides(std::size_t e) const;
   TriangleRecord triangle(std::size_t t) const;
-  void measure_hole(std::size_t t, TriangleRecord& out) const;
+  EdgeRecord edge(std::size_t e) const;
   void add_edges();
   void add_triangles();
   void add_vertices();
@@ -95,7 +95,8 @@ Lens Union2::lens(Id i, Id j) const {
   const int k = square_[at(i)] <= square_[at(j)] ? 0 : 1;
   const double r = radius_[at(k == 0 ? i : j)], h = std::fabs(out.from[k]);
   out.chord = std::sqrt(std::max(0.0, (r - h) * (r + h)));
-  for (int m = 0; m < 2; ++m) out.half[m] = std::atan2(out.chord, out.from[m]);
+  out.half[0] = std::atan2(out.chord, out.from[0]);
+  out.half[1] = lean == 0.0 ? out.half[0] : std::atan2(out.chord, out.from[1]);
   return out;
 }
 
@@ -109,22 +110,32 @@ int Union2::open_sides(std::size_t e) const {
   return open;
 }
 
+EdgeRecord Union2::edge(std::size_t e) const {
+  const Id i = view_.edges[2 * e], j = view_.edges[2 * e + 1];
+  EdgeRecord out{{i, j}, {-1, -1}, {-1.0, -1.0}, {}, 0.0, 0.0, 0.0};
+  const int open = open_sides(e);
+  if (open == 0) return out;
+  const Lens lens = this->lens(i, j);
+  for (std::size_t k = 0; k < 2; ++k) {
+    out.half[k] = open * lens.half[k];
+    out.share[k] = 0.5 * open * lens.from[k] * lens.chord;
+    const Id t = view_.edge_triangles[2 * e + k];
+    out.hole[k] = t < 0 || view_.has_triangle[t] ? -1 : view_.hole[t];
+    // What a flap takes from the holes on either side.
+    const Id v = out.v[k];
+    out.hole_perimeter -= radius_[at(v)] * lens.half[k];
+    out.hole_area += 0.5 * square_[at(v)] * lens.half[k];
+  }
+  out.area = 0.5 * open * lens.length * lens.chord;
+  out.hole_area -= 0.5 * lens.length * lens.chord;
+  return out;
+}
+
 void Union2::add_edges() {
   in_waves<EdgeRecord>(
       view_.edge_count, job_, 0.45,
       [&](std::size_t e, std::vector<EdgeRecord>& records) {
-        if (!view_.has_edge[e]) return;
-        const Id* end = view_.edges + 2 * e;
-        EdgeRecord record{};
-        const int open = open_sides(e);
-        const Lens lens = open > 0 ? this->lens(end[0], end[1]) : Lens{};
-        for (int k = 0; k < 2; ++k) {
-          record.v[k] = end[k];
-          record.half[k] = open > 0 ? open * lens.half[k] : -1.0;
-          record.share[k] = 0.5 * open * lens.from[k] * lens.chord;
-        }
-        record.area = 0.5 * open * lens.length * lens.chord;
-        records.push_back(record);
+        if (view_.has_edge[e]) records.push_back(edge(e));
       },
       [&](const EdgeRecord& record) {
         for (int k = 0; k < 2; ++k) {
@@ -134,26 +145,12 @@ void Union2::add_edges() {
           open_[v] = true;
           turn_[v] -= record.half[k];
           out_.areas[v] += record.share[k];
+          if (record.hole[k] < 0) continue;
+          out_.hole_areas[at(record.hole[k])] += record.hole_area;
+          out_.hole_perimeters[at(record.hole[k])] += record.hole_perimeter;
         }
         total_ += record.area;
       });
-}
-
-// What a triangle outside of the complex adds to its hole: itself, less what the discs have.
-void Union2::measure_hole(std::size_t t, TriangleRecord& out) const {
-  auto sector = [&](Id v, double angle) {
-    out.perimeter += radius_[at(v)] * angle;
-    out.area -= 0.5 * square_[at(v)] * angle;
-  };
-  for (int k = 0; k < 3; ++k) {
-    if (view_.has_vertex[out.v[k]]) sector(out.v[k], out.angle[k]);
-    if (!view_.has_edge[view_.triangle_edges[3 * t + at(k)]]) continue;
-    const Id i = out.v[kOther[k][0]], j = out.v[kOther[k][1]];
-    const Lens lens = this->lens(i, j);
-    out.area -= 0.5 * lens.length * lens.chord;
-    sector(i, -lens.half[0]);
-    sector(j, -lens.half[1]);
-  }
 }
 
 TriangleRecord Union2::triangle(std::size_t t) const {
@@ -164,13 +161,23 @@ TriangleRecord Union2::triangle(std::size_t t) const {
   const bool inside = view_.has_triangle[t];
   out.area = 0.5 * size;
   out.hole = inside ? -1 : view_.hole[t];
+  if (!inside && view_.weights == nullptr) {  // the same radius all around: half a turn
+    out.perimeter = kPi * radius_[at(corner[0])];
+    out.area -= 0.5 * kPi * square_[at(corner[0])];
+    return out;
+  }
   for (int i = 0; i < 3; ++i) {
     const int j = kOther[i][0], k = kOther[i][1];
     out.v[i] = corner[i];
     const Point2 ij{p[j].x - p[i].x, p[j].y - p[i].y}, ik{p[k].x - p[i].x, p[k].y - p[i].y};
     const double across = ij.x * ik.x + ij.y * ik.y;
     if (!inside || open_[at(corner[i])]) out.angle[i] = std::atan2(size, across);
-    if (!inside) continue;
+    if (!inside) {  // what a triangle of a hole adds to it, but for the flaps on its edges
+      if (!view_.has_vertex[corner[i]]) continue;
+      out.perimeter += radius_[at(corner[i])] * out.angle[i];
+      out.area -= 0.5 * square_[at(corner[i])] * out.angle[i];
+      continue;
+    }
     // Kites between the corner, its edges' centres and the triangle's.
     const Point2 jk{p[k].x - p[j].x, p[k].y - p[j].y};
     const double sq_ij = ij.x * ij.x + ij.y * ij.y, sq_ik = ik.x * ik.x + ik.y * ik.y;
@@ -178,13 +185,15 @@ TriangleRecord Union2::triangle(std::size_t t) const {
     const double lean_ij = weight(corner[i]) - weight(corner[j]);
     const double lean_ik = weight(corner[i]) - weight(corner[k]);
     if (view_.weights != nullptr) {
-      off_ij += lean_ik - lean_ij * (across / sq_ij);
-      off_ik += lean_ij - lean_ik * (across / sq_ik);
+      // Each share from its own end: the third corner may almost coincide with one of them.
+      const double at_j = off_ik, at_k = off_ij;
+      const double lean_jk = weight(corner[j]) - weight(corner[k]);
+      off_ij += (at_j * lean_ik + across * lean_jk) / sq_ij;
+      off_ik += (at_k * lean_ij - across * lean_jk) / sq_ik;
     }
     out.share[i] =
         0.125 * ((sq_ij + lean_ij) * (off_ij / size) + (sq_ik + lean_ik) * (off_ik / size));
   }
-  if (!inside) measure_hole(t, out);
   return out;
 }
 

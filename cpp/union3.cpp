@@ -28,15 +28,34 @@ constexpr int kEdge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 std::size_t at(Id i) { return static_cast<std::size_t>(i); }
 
+// What a piece adds to a void: a tetrahedron itself, less what the balls have of it.
+struct Hollow {
+  double area = 0.0, volume = 0.0;
+
+  void sphere(double square, double radius, double angle) {
+    area += square * angle;
+    volume -= square * radius * angle / 3.0;
+  }
+  void edge(const Balls3& balls, const Lens& lens, Id i, Id j, double angle) {
+    const double a = lens.from[0] * balls.radius(i), b = lens.from[1] * balls.radius(j);
+    area += (a + b) * angle;
+    volume -= (a * balls.radius(i) + b * balls.radius(j)) * angle / 3.0 +
+              lens.length * lens.circle * lens.circle * angle / 6.0;
+  }
+};
+
 struct FlapRecord {
   Id v[3], e[3];
+  Id hollow[2];  // of each side
   double half[3], turn[3], share[3], volume;
+  Hollow hole;
 };
 
 struct CellRecord {
   Id v[4], e[6];  // edges: -1 where the angle is not asked for
   Id hollow;
-  double share[4], angle[6], volume, area;
+  double share[4], angle[6], volume;
+  Hollow hole;
 };
 
 class Union3 {
@@ -46,6 +65,7 @@ class Union3 {
 
  private:
   int open_sides(std::size_t f) const;
+  void note_voids(std::size_t f, const Flap& flap, FlapRecord& out) const;
   void count();
   void add_triangles();
   void add_tetrahedra();
@@ -125,6 +145,20 @@ void Union3::count() {
   }
 }
 
+// What a flap takes from the voids on either side of its triangle.
+void Union3::note_voids(std::size_t f, const Flap& flap, FlapRecord& out) const {
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Id t = view_.triangle_tetrahedra[2 * f + k];
+    out.hollow[k] = t < 0 || view_.has_tetrahedron[t] ? -1 : view_.hollow[t];
+  }
+  if (out.hollow[0] < 0 && out.hollow[1] < 0) return;
+  out.hole.volume = -flap.area * flap.height / 3.0;
+  for (int k = 0; k < 3; ++k) {
+    out.hole.edge(balls_, flap.lens[k], out.v[kEndsOf[k][0]], out.v[kEndsOf[k][1]], -flap.half[k]);
+    out.hole.sphere(balls_.square(out.v[k]), balls_.radius(out.v[k]), -flap.turn[k]);
+  }
+}
+
 void Union3::add_triangles() {
   in_waves<FlapRecord>(
       view_.triangle_count, job_, 0.4,
@@ -142,6 +176,7 @@ void Union3::add_triangles() {
           record.share[k] = open * flap.share[k] * flap.height / 3.0;
         }
         record.volume = open * flap.area * flap.height / 3.0;
+        note_voids(f, flap, record);
         records.push_back(record);
       },
       [&](const FlapRecord& record) {
@@ -152,6 +187,11 @@ void Union3::add_triangles() {
           out_.volumes[v] += record.share[k];
         }
         total_ += record.volume;
+        for (const Id hollow : record.hollow) {
+          if (hollow < 0) continue;
+          out_.void_areas[at(hollow)] += record.hole.area;
+          out_.void_volumes[at(hollow)] += record.hole.volume;
+        }
       });
 }
 
@@ -164,39 +204,17 @@ Id Union3::cell_edge(std::size_t t, int k) const {
   return view_.triangle_edges[3 * f + at(third > away ? third - 1 : third)];
 }
 
-// What a tetrahedron outside of the complex adds to its void: itself, less what the balls
-// have of it.
+// What a tetrahedron outside of the complex adds to its void, but for the flaps on its faces.
 void Union3::measure_void(std::size_t t, CellRecord& out) const {
   const Id* corner = view_.tetrahedra + 4 * t;
+  out.hole.volume = out.volume;
   for (int k = 0; k < 4; ++k) {
     if (!view_.has_vertex[corner[k]]) continue;
-    const double s = balls_.square(corner[k]), r = balls_.radius(corner[k]);
-    out.area += 2.0 * kPi * s;
-    out.volume -= 2.0 * kPi * s * r / 3.0;
+    out.hole.sphere(balls_.square(corner[k]), balls_.radius(corner[k]), 2.0 * kPi);
   }
-  auto edge = [&](const Lens& lens, Id i, Id j, double angle) {
-    const double si = balls_.square(i), sj = balls_.square(j);
-    const double ri = balls_.radius(i), rj = balls_.radius(j);
-    out.area += (lens.from[0] * ri + lens.from[1] * rj) * angle;
-    out.volume -= (lens.from[0] * si + lens.from[1] * sj) * angle / 3.0 +
-                  lens.length * lens.circle * lens.circle * angle / 6.0;
-  };
   for (int k = 0; k < 6; ++k) {
     const Id i = corner[kEdge[k][0]], j = corner[kEdge[k][1]];
-    if (view_.has_edge[out.e[k]]) edge(balls_.lens(i, j), i, j, out.angle[k]);
-  }
-  for (int k = 0; k < 4; ++k) {
-    const Id f = view_.tetrahedron_triangles[4 * t + at(k)];
-    if (!view_.has_triangle[f]) continue;
-    const Id* face = view_.triangles + 3 * at(f);
-    const Flap flap = balls_.flap(face);
-    out.volume -= flap.area * flap.height / 3.0;
-    for (int m = 0; m < 3; ++m) {
-      const double s = balls_.square(face[m]), r = balls_.radius(face[m]);
-      edge(flap.lens[m], face[kEndsOf[m][0]], face[kEndsOf[m][1]], -flap.half[m]);
-      out.area -= s * flap.turn[m];
-      out.volume += s * r * flap.turn[m] / 3.0;
-    }
+    if (view_.has_edge[out.e[k]]) out.hole.edge(balls_, balls_.lens(i, j), i, j, out.angle[k]);
   }
 }
 
@@ -249,8 +267,8 @@ void Union3::add_tetrahedra() {
       },
       [&](const CellRecord& record) {
         if (record.hollow >= 0) {
-          out_.void_volumes[at(record.hollow)] += record.volume;
-          out_.void_areas[at(record.hollow)] += record.area;
+          out_.void_volumes[at(record.hollow)] += record.hole.volume;
+          out_.void_areas[at(record.hollow)] += record.hole.area;
           for (const Id e : record.e) edge_hollow_[at(e)] = record.hollow;
           return;
         }

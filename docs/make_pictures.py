@@ -174,6 +174,30 @@ def horse():
     return small_png(figure, dpi=80)
 
 
+def molecule():
+    """Draw what docs/molecules.md tells of villin."""
+    import importlib.util
+
+    import numpy as np
+    from matplotlib import colormaps
+
+    from alphamesh.cli.molecule import element_colors
+    from alphamesh.plot import plot_balls
+
+    package = Path(importlib.util.find_spec("openmm").origin).parent
+    villin = am.read_molecule(package / "app" / "data" / "test.pdb", hetero=False)
+    atoms, probed = (
+        am.AlphaComplex(villin.points, weights=villin.weights(probe)).union(0)
+        for probe in (0, 1.4)
+    )
+    reached = np.sqrt(probed.ball_surface_areas / (4 * np.pi * probed.ball_radii**2))
+    reached /= reached.max()
+    figure = new_figure(11, 5.5)
+    for k, colors in enumerate([element_colors(villin), colormaps["viridis"](reached)]):
+        plot_balls(atoms, figure.add_axes((0.5 * k, 0, 0.5, 1)), colors=colors)
+    return small_png(figure, dpi=80)
+
+
 def solids():
     """Draw a cavity cut open, rings that are linked, and a knot, its cuts flat."""
     figure = new_figure(12, 4)
@@ -214,6 +238,7 @@ MAKERS = {
     "soho.png": soho,
     "airports.png": airports,
     "horse.png": horse,
+    "molecule.png": molecule,
     "solids.png": solids,
     "weights.png": weights,
     "grow.gif": grow,

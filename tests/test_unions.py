@@ -19,7 +19,6 @@ from alphamesh.restricted import restricted_voronoi
 from alphamesh.unions import UnionOfBalls, UnionOfDiscs, union_of_balls
 from strategies import FAMILIES
 from strategies3 import FAMILIES as FAMILIES_IN_SPACE
-from union_oracle import Balls
 from union_samples import holes, measures, sampled, union, volume_of_balls
 
 PI = math.pi
@@ -174,31 +173,6 @@ def test_equals_buffers_of_shapely(radius):
     assert found.hole_areas == pytest.approx(sorted(inner, reverse=True), rel=1e-2)
 
 
-def check_against_oracle(points, radius, rel=1e-11):
-    built = filtration(points)
-    found, exact = union_of_balls(built, radius), Balls(built, radius)
-    size = radius**3
-    assert found.volume == pytest.approx(exact.volume, rel=rel)
-    assert found.ball_volumes / size == pytest.approx(exact.volumes / size, abs=rel)
-    areas = found.ball_surface_areas / radius**2
-    assert areas == pytest.approx(exact.areas / radius**2, abs=rel)
-
-
-@pytest.mark.parametrize("thickness", [1, 1e-3, 1e-8, 1e-15])
-def test_slivers_in_fifty_digits(thickness):
-    points = np.random.default_rng(2).random((12, 3)) * [1, 1, thickness]
-    for radius in (0.2, 0.35, 1.0, 30.0):
-        check_against_oracle(points, radius)
-
-
-@pytest.mark.parametrize("noise", [1e-3, 1e-9, 1e-15])
-def test_almost_lattices_and_almost_duplicates_in_fifty_digits(noise):
-    rng = np.random.default_rng(3)
-    points = rng.integers(0, 3, (14, 3)) + noise * rng.normal(size=(14, 3))
-    for radius in (0.55, 0.8, 0.95, 1.7):
-        check_against_oracle(points, radius, rel=1e-10)
-
-
 # ------------------------------------------------------------------ any cloud
 
 
@@ -283,59 +257,6 @@ def test_holes_and_union_fill_the_box(dimension):
     assert inner + sizes[0] == pytest.approx(step**dimension, rel=1e-12)
 
 
-# ------------------------------------------------------------------ degenerate clouds
-
-
-@pytest.mark.parametrize("radius", [0.5, math.sqrt(0.5), math.sqrt(0.75), 0.9, 1.0, 40.0])
-@pytest.mark.parametrize("dimension", [2, 3])
-def test_lattices_are_continuous_in_the_radius(dimension, radius):
-    built = filtration(np.array(list(itertools.product(range(4), repeat=dimension))))
-    contents, boundaries, parts, _ = zip(
-        *(
-            measures(union_of_balls(built, radius * (1 + k * 1e-13)))
-            for k in (-1000, -1, 0, 1, 1000)
-        ),
-        strict=True,
-    )
-    assert contents == pytest.approx([contents[2]] * 5, rel=1e-8)
-    assert np.ptp(parts, axis=0).max() < 1e-8 * radius**dimension
-    # Contacts begin with the square root of the radius in the plane.
-    assert boundaries == pytest.approx([boundaries[2]] * 5, rel=1e-4)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_many_on_one_sphere(seed):
-    points = np.random.default_rng(seed).normal(size=(30, 3))
-    points /= np.linalg.norm(points, axis=1)[:, None]
-    built = filtration(points)
-    at, less, more = (union_of_balls(built, r) for r in (1.0, 1 - 1e-9, 1 + 1e-9))
-    assert less.volume <= at.volume * (1 + 1e-12)
-    assert at.volume <= more.volume * (1 + 1e-12)
-    assert more.volume == pytest.approx(less.volume, rel=1e-7)
-    assert more.ball_volumes == pytest.approx(at.ball_volumes, abs=1e-7)
-
-
-def test_one_line_and_one_plane_in_space():
-    line = union([[k, 2 * k, 2 * k] for k in range(5)], 2.5)
-    cap = PI * 1**2 * (3 * 2.5 - 1) / 3
-    ball = 4 / 3 * PI * 2.5**3
-    assert line.volume == pytest.approx(5 * ball - 8 * cap, rel=1e-13)
-    plane = union([[x, y, x + y] for x in range(4) for y in range(4)], 0.9)
-    exact = Balls(plane.filtration, 0.9)
-    assert plane.volume == pytest.approx(exact.volume, rel=1e-13)
-    assert len(line.void_volumes) == len(plane.void_volumes) == 0
-
-
-@pytest.mark.parametrize("dimension", [2, 3])
-def test_radius_zero(dimension):
-    found = union(np.random.default_rng(0).random((50, dimension)), 0)
-    assert measures(found)[:2] == (0, 0)
-    assert not measures(found)[2].any()
-
-
-# ------------------------------------------------------------------ invariance
-
-
 @pytest.mark.parametrize("dimension", [2, 3])
 @pytest.mark.parametrize("exponent", [-250, -100, -60, 30, 100])
 def test_scale(dimension, exponent):
@@ -364,14 +285,24 @@ def test_translation_and_order(dimension):
 
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_threads_change_nothing(dimension):
-    built = filtration(np.random.default_rng(4).random((20_000, dimension)))
-    radius = 0.7 * 20_000 ** (-1 / dimension)
+    n = 40_000 if dimension == 2 else 10_000
+    built = filtration(np.random.default_rng(4).random((n, dimension)))
+    radius = 0.7 * n ** (-1 / dimension)
     seen = []
     one = union_of_balls(built, radius, threads=1, progress=seen.append)
     two = union_of_balls(built, radius, threads=2)
-    assert seen[-1] == 1.0 if seen else dimension == 2
+    assert seen[-1] == 1.0
     for a, b in zip((*measures(one), *holes(one)), (*measures(two), *holes(two)), strict=True):
         assert np.array_equal(a, b)
+
+
+def test_it_can_be_stopped():
+    def stop(share):
+        raise InterruptedError
+
+    built = filtration(np.random.default_rng(4).random((60_000, 3)))
+    with pytest.raises(InterruptedError):
+        union_of_balls(built, 0.7 * 60_000 ** (-1 / 3), threads=1, progress=stop)
 
 
 # ------------------------------------------------------------------ the face

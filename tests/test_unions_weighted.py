@@ -57,12 +57,38 @@ def test_weights_in_fifty_digits(kind, seed):
     points = rng.random((16, 3))
     built = am.AlphaComplex(points, weights=WEIGHTS[kind](rng, points)).filtration
     critical = np.unique(np.concatenate(built.radii))
-    for radius in rng.choice((critical[1:] + critical[:-1]) / 2, 4):
+    apart = np.flatnonzero(np.diff(critical) > 1e-9)
+    for radius in rng.choice((critical[apart] + critical[apart + 1]) / 2, 4):
         found, exact = union_of_balls(built, radius), Balls(built, radius)
         size = found.ball_radii.max()
         assert found.volume == pytest.approx(exact.volume, rel=1e-11)
         assert found.ball_volumes == pytest.approx(exact.volumes, abs=1e-11 * size**3)
         assert found.ball_surface_areas == pytest.approx(exact.areas, abs=1e-11 * size**2)
+
+
+@pytest.mark.parametrize("noise", [1e-3, 1e-8, 1e-13])
+def test_almost_duplicates_of_different_weights_in_fifty_digits(noise):
+    rng = np.random.default_rng(7)
+    points = rng.integers(0, 3, (16, 3)) + noise * rng.normal(size=(16, 3))
+    built = am.AlphaComplex(points, weights=rng.integers(2, 5, 16) / 4).filtration
+    for radius in (-0.45, 0.05, 0.6, 4.0):
+        found, exact = union_of_balls(built, radius), Balls(built, radius)
+        size = found.ball_radii.max()
+        assert found.volume == pytest.approx(exact.volume, rel=1e-11)
+        assert found.ball_volumes == pytest.approx(exact.volumes, abs=1e-11 * size**3)
+        assert found.ball_surface_areas == pytest.approx(exact.areas, abs=1e-11 * size**2)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_spheres_that_all_meet_in_one_point(seed):
+    points = np.random.default_rng(seed).normal(size=(25, 3))
+    built = am.AlphaComplex(points, weights=(points**2).sum(axis=1)).filtration
+    less, found, more = (union_of_balls(built, radius) for radius in (-1e-5, 0.0, 1e-5))
+    size = found.ball_radii.max()
+    assert found.volume == pytest.approx(less.volume, rel=1e-8)
+    assert found.volume == pytest.approx(more.volume, rel=1e-8)
+    assert found.ball_volumes == pytest.approx(more.ball_volumes, abs=1e-8 * size**3)
+    assert found.ball_volumes.sum() == pytest.approx(found.volume, rel=1e-12)
 
 
 @pytest.mark.parametrize("dimension", [2, 3])

@@ -61,9 +61,9 @@ def _settled(filtration: AnyFiltration, radius: float) -> float:
         power = _power(last / scale) + _CLOSE if scale else 0.0
         limit = scale * math.copysign(_root(abs(power)), power)
         for radii in filtration.radii[1:]:
-            reached = float(radii.max(initial=last, where=radii <= limit))
-            if reached > last:
-                last, found = reached, True
+            reached = radii <= limit
+            if np.count_nonzero(reached) > np.count_nonzero(radii <= last):
+                last, found = float(radii[reached].max()), True
     return last
 
 

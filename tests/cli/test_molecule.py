@@ -49,6 +49,8 @@ def test_what_people_read(villin):
     told = ok("molecule", "-", "-q", "--radius", "h=1.2", stdin=villin)
     assert "584: 189 C" in told
     assert ok("molecule", "villin.pdb", "-q", "-o", "-").startswith("row,chain,residue,")
+    ok("molecule", "villin.pdb", "-q", "--plot", "a.png")
+    assert Path("a.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_voids_are_told(villin):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
+from alphamesh.cli.building import need_matplotlib, plot_option, save_figure
 from alphamesh.cli.command import (
     Command,
     json_option,
@@ -29,18 +30,27 @@ if TYPE_CHECKING:
     from alphamesh.molecule import Molecule
     from alphamesh.unions import UnionOfBalls
 
-__all__ = ["command"]
+__all__ = ["command", "element_colors"]
 
 _EXAMPLES = (
     "alphamesh molecule 1crn.cif.gz",
-    "alphamesh molecule 1crn.pdb --probe 1.4 -o atoms.csv",
+    "alphamesh molecule 1crn.pdb --probe 1.4 -o atoms.csv --plot surface.png",
     "alphamesh molecule heme.pdb --radius Fe=1.4 --json",
 )
+
+
+# Colours by element, as Corey, Pauling and Koltun chose for their models, but paler.
+_COLORS = {
+    **{"H": "#f4f4f4", "C": "#909aa6", "N": "#5b7fe0", "O": "#e0564a", "S": "#e8c33c"},
+    **{"P": "#ef9440", "F": "#8fd17a", "Cl": "#57b957", "Br": "#a4553f", "I": "#8e4fb0"},
+}
+_OTHER = "#d58ab8"
 
 
 @click.command("molecule", cls=Command, examples=_EXAMPLES)
 @click.argument("source", metavar="FILE")
 @output_options(TableFile(".csv"), "Write one line for each atom here", name="tables")
+@plot_option("Draw the atoms, coloured by element.")
 @click.option(
     "--probe",
     type=click.FloatRange(min=0),
@@ -87,7 +97,11 @@ _EXAMPLES = (
 @json_option
 @quiet_option
 def command(
-    source: str, tables: tuple[Path, ...], radii: tuple[tuple[str, float], ...], **options: Any
+    source: str,
+    tables: tuple[Path, ...],
+    picture: Path | None,
+    radii: tuple[tuple[str, float], ...],
+    **options: Any,
 ) -> None:
     """Measure a molecule: volume, surface area and voids, in all and by atoms.
 
@@ -96,7 +110,8 @@ def command(
     1.4, what is told is the surface that water can reach. A table has one line
     for each atom: the part of the volume nearest to it, and of the surface.
     """
-    check_targets(tables, source)
+    check_targets([*tables, *([picture] if picture else [])], source)
+    need_matplotlib(picture is not None)
     as_json, quiet, threads = (options.pop(name) for name in ("as_json", "quiet", "threads"))
     probe = options.pop("probe")
     outputs = Outputs()
@@ -104,6 +119,8 @@ def command(
         molecule = _read(source, steps, radii=dict(radii), **options)
         found = _measured(molecule, probe, threads, steps)
         files = [Output(path, lambda path: _write(molecule, found, path)) for path in tables]
+        if picture is not None:
+            files.append(Output(picture, lambda path: _draw(molecule, found, path)))
         outputs.write(files, steps)
     if not outputs.streamed:
         _tell(source, _facts(molecule, probe, found), outputs, as_json=as_json)
@@ -199,3 +216,14 @@ def _write(molecule: Molecule, found: UnionOfBalls, path: Path) -> None:
         "surface_area": found.ball_surface_areas,
     }
     write_table(path, columns)
+
+
+def element_colors(molecule: Molecule) -> list[str]:
+    """Return the usual color of each atom."""
+    return [_COLORS.get(symbol, _OTHER) for symbol in molecule.elements.tolist()]
+
+
+def _draw(molecule: Molecule, found: UnionOfBalls, path: Path) -> None:
+    from alphamesh.plot import plot_balls
+
+    save_figure(plot_balls(found, colors=element_colors(molecule)).figure, path)

@@ -14,6 +14,7 @@ except ImportError as missing:
 
     raise MissingLibraryError.of("matplotlib", "plot", "Drawing a figure") from missing
 
+from alphamesh.plot.balls import plot_balls
 from alphamesh.plot.cells import (
     cell_coloring,
     plot_restricted_voronoi,
@@ -44,6 +45,7 @@ __all__ = [
     "GrowthView3D",
     "cell_coloring",
     "figure_bytes",
+    "plot_balls",
     "plot_barcode",
     "plot_betti",
     "plot_cloud",
