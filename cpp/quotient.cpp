@@ -8,19 +8,79 @@ namespace {
 
 using Id = std::int32_t;
 
-// A simplex of up to four vertices in a bucket of those that share the first row: rows, then
-// offsets, five bits each; then where it came from.
-struct Key {
-  std::uint64_t upper;  // second and third row
-  std::uint64_t lower;  // fourth row, offsets of the second, third and fourth vertex
+constexpr int kRowBits = 26, kCodeBits = 5;
+
+// A simplex of K + 1 vertices in a bucket of those that share the first row: the other rows,
+// then their offsets, as numbers; then where it came from.
+template <int K>
+struct Key;
+
+template <>
+struct Key<3> {
+  std::uint64_t rows, more;  // second and third row; fourth row and offsets
   std::uint32_t source;
 
-  bool same(const Key& o) const { return upper == o.upper && lower == o.lower; }
+  Key() = default;
+  Key(const std::uint64_t* row, const std::uint64_t* code, std::uint32_t from)
+      : rows(row[1] << 32 | row[2]),
+        more(row[3] << 32 | code[1] << 2 * kCodeBits | code[2] << kCodeBits | code[3]),
+        source(from) {}
+  bool same(const Key& o) const { return rows == o.rows && more == o.more; }
   bool operator<(const Key& o) const {
-    if (upper != o.upper) return upper < o.upper;
-    if (lower != o.lower) return lower < o.lower;
-    return source < o.source;
+    if (rows != o.rows) return rows < o.rows;
+    return more != o.more ? more < o.more : source < o.source;
   }
+  void read(std::uint64_t* row, std::uint64_t* code) const {
+    row[1] = rows >> 32, row[2] = rows & 0xffffffffu, row[3] = more >> 32;
+    code[1] = more >> 2 * kCodeBits & 31, code[2] = more >> kCodeBits & 31, code[3] = more & 31;
+  }
+};
+
+template <>
+struct Key<2> {
+  std::uint64_t word;
+  std::uint32_t source;
+
+  Key() = default;
+  Key(const std::uint64_t* row, const std::uint64_t* code, std::uint32_t from)
+      : word((row[1] << kRowBits | row[2]) << 2 * kCodeBits | code[1] << kCodeBits | code[2]),
+        source(from) {}
+  bool same(const Key& o) const { return word == o.word; }
+  bool operator<(const Key& o) const {
+    return word != o.word ? word < o.word : source < o.source;
+  }
+  void read(std::uint64_t* row, std::uint64_t* code) const {
+    row[1] = word >> (kRowBits + 2 * kCodeBits);
+    row[2] = word >> 2 * kCodeBits & ((1u << kRowBits) - 1);
+    code[1] = word >> kCodeBits & 31, code[2] = word & 31;
+  }
+};
+
+template <>
+struct Key<1> {
+  std::uint32_t word, source;
+
+  Key() = default;
+  Key(const std::uint64_t* row, const std::uint64_t* code, std::uint32_t from)
+      : word(static_cast<std::uint32_t>(row[1] << kCodeBits | code[1])), source(from) {}
+  bool same(const Key& o) const { return word == o.word; }
+  bool operator<(const Key& o) const {
+    return word != o.word ? word < o.word : source < o.source;
+  }
+  void read(std::uint64_t* row, std::uint64_t* code) const {
+    row[1] = word >> kCodeBits, code[1] = word & 31;
+  }
+};
+
+template <>
+struct Key<0> {
+  std::uint32_t source;
+
+  Key() = default;
+  Key(const std::uint64_t*, const std::uint64_t*, std::uint32_t from) : source(from) {}
+  bool same(const Key&) const { return true; }
+  bool operator<(const Key& o) const { return source < o.source; }
+  void read(std::uint64_t*, std::uint64_t*) const {}
 };
 
 // Three offsets in -1 ... 1 as one number, in lexicographic order.
@@ -52,18 +112,20 @@ struct Vertex {
 };
 
 // Of vertices in order; offsets become relative to the first.
-Key key_of(const Vertex* v, int count, std::uint32_t source) {
+template <int K>
+Key<K> key_of(const Vertex* v, std::uint32_t source) {
   std::uint64_t row[4] = {0, 0, 0, 0}, code[4] = {0, 0, 0, 0};
-  for (int i = 1; i < count; ++i) {
+  for (int i = 1; i <= K; ++i) {
     int relative[3];
     for (int k = 0; k < 3; ++k) relative[k] = v[i].offset[k] - v[0].offset[k];
     row[i] = static_cast<std::uint32_t>(v[i].row);
     code[i] = code_of(relative);
   }
-  return {row[1] << 32 | row[2], row[3] << 32 | code[1] << 10 | code[2] << 5 | code[3], source};
+  return {row, code, source};
 }
 
-// Keys in buckets by first row.
+// Simplices of K + 1 vertices, in buckets by first row.
+template <int K>
 class Buckets {
  public:
   explicit Buckets(std::size_t rows) : start_(rows + 1) {
@@ -72,44 +134,43 @@ class Buckets {
   void count(Id row) { ++start_[static_cast<std::size_t>(row) + 1]; }
   void allot() {
     for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
-    key_ = Buffer<Key>(start_[start_.size() - 1]);
+    key_ = Buffer<Key<K>>(start_[start_.size() - 1]);
     next_ = Buffer<std::size_t>(start_.size() - 1);
     std::copy(start_.data(), start_.data() + next_.size(), next_.begin());
   }
-  void put(Id row, const Key& key) { key_[next_[static_cast<std::size_t>(row)]++] = key; }
+  void put(Id row, const Key<K>& key) { key_[next_[static_cast<std::size_t>(row)]++] = key; }
   std::size_t size() const { return key_.size(); }
 
-  // The simplices of K + 1 vertices, each once; number_of[source] is that of each key.
-  template <int K>
+  // The simplices, each once; number_of[source] is that of each key.
   Layer number(Job& job, Buffer<Id>& number_of);
 
  private:
   Buffer<std::size_t> start_, next_;
-  Buffer<Key> key_;
+  Buffer<Key<K>> key_;
 };
 
-void write_simplex(Layer& layer, int vertices, std::size_t i, Id first, const Key& key) {
-  const Id rows[4] = {first, static_cast<Id>(key.upper >> 32),
-                      static_cast<Id>(key.upper & 0xffffffffu), static_cast<Id>(key.lower >> 32)};
-  const std::uint64_t codes[4] = {13, key.lower >> 10 & 31, key.lower >> 5 & 31, key.lower & 31};
-  for (int v = 0; v < vertices; ++v) {
-    const std::size_t at = i * static_cast<std::size_t>(vertices) + static_cast<std::size_t>(v);
-    layer.row[at] = rows[v];
-    decode(codes[v], &layer.offset[3 * at]);
+template <int K>
+void write_simplex(Layer& layer, std::size_t i, std::size_t first, const Key<K>& key) {
+  std::uint64_t row[4] = {first}, code[4] = {13};
+  key.read(row, code);
+  for (std::size_t v = 0; v <= K; ++v) {
+    const std::size_t at = i * (K + 1) + v;
+    layer.row[at] = static_cast<Id>(row[v]);
+    decode(code[v], &layer.offset[3 * at]);
   }
 }
 
 template <int K>
-Layer Buckets::number(Job& job, Buffer<Id>& number_of) {
+Layer Buckets<K>::number(Job& job, Buffer<Id>& number_of) {
   const std::size_t rows = next_.size();
   const Parts parts(rows, job, 1024);
   std::vector<std::size_t> first(parts.count() + 1, 0);
   job.run(parts.count(), [&](std::size_t part) {
     std::size_t distinct = 0;
     for (std::size_t r = parts.begin(part); r < parts.end(part); ++r) {
-      Key *from = key_.data() + start_[r], *to = key_.data() + start_[r + 1];
+      Key<K>*from = key_.data() + start_[r], *to = key_.data() + start_[r + 1];
       std::sort(from, to);
-      for (Key* k = from; k < to; ++k) distinct += k == from || !k->same(k[-1]) ? 1 : 0;
+      for (Key<K>* k = from; k < to; ++k) distinct += k == from || !k->same(k[-1]) ? 1 : 0;
     }
     first[part + 1] = distinct;
   });
@@ -123,7 +184,7 @@ Layer Buckets::number(Job& job, Buffer<Id>& number_of) {
     for (std::size_t r = parts.begin(part); r < parts.end(part); ++r) {
       for (std::size_t k = start_[r]; k < start_[r + 1]; ++k) {
         if (k == start_[r] || !key_[k].same(key_[k - 1])) {
-          write_simplex(layer, K + 1, next++, static_cast<Id>(r), key_[k]);
+          write_simplex<K>(layer, next++, r, key_[k]);
         }
         number_of[key_[k].source] = static_cast<Id>(next - 1);
       }
@@ -146,7 +207,7 @@ template <int K>
 Layer faces_of(Layer& layer, std::size_t rows, Job& job) {
   const std::size_t sources = (K + 1) * layer.count;
   if (sources > 0xffffffffu) throw std::length_error("too many simplices");
-  Buckets buckets(rows);
+  Buckets<K - 1> buckets(rows);
   for (std::size_t i = 0; i < layer.count; ++i) {
     for (int j = 0; j <= K; ++j) buckets.count(layer.row[i * (K + 1) + (j == 0 ? 1 : 0)]);
   }
@@ -159,17 +220,17 @@ Layer faces_of(Layer& layer, std::size_t rows, Job& job) {
       std::copy(v, v + j, face);
       std::copy(v + j + 1, v + K + 1, face + j);
       const auto source = static_cast<std::uint32_t>(i * (K + 1) + static_cast<std::size_t>(j));
-      buckets.put(face[0].row, key_of(face, K, source));
+      buckets.put(face[0].row, key_of<K - 1>(face, source));
     }
   }
   layer.face = Buffer<Id>(sources);
-  return buckets.number<K - 1>(job, layer.face);
+  return buckets.number(job, layer.face);
 }
 
 // Cells whose first vertex lies in the box.
 template <int D>
 Layer canonical_cells(const Copies& copies, const Id* cells, std::size_t count, Job& job) {
-  Buffer<Key> key(count);
+  Buffer<Key<D>> key(count);
   Buffer<Id> row(count);  // the first; -1 of cells that lie elsewhere
   const Parts parts(count, job);
   job.run(parts.count(), [&](std::size_t part) {
@@ -183,10 +244,10 @@ Layer canonical_cells(const Copies& copies, const Id* cells, std::size_t count, 
       }
       std::sort(v, v + D + 1);
       row[c] = static_cast<std::size_t>(v[0].copy) < copies.base ? v[0].row : -1;
-      if (row[c] >= 0) key[c] = key_of(v, D + 1, 0);
+      if (row[c] >= 0) key[c] = key_of<D>(v, 0);
     }
   });
-  Buckets buckets(copies.rows);
+  Buckets<D> buckets(copies.rows);
   for (std::size_t c = 0; c < count; ++c) {
     if (row[c] >= 0) buckets.count(row[c]);
   }
@@ -198,7 +259,7 @@ Layer canonical_cells(const Copies& copies, const Id* cells, std::size_t count, 
     buckets.put(row[c], key[c]);
   }
   Buffer<Id> number(found);
-  Layer layer = buckets.number<D>(job, number);
+  Layer layer = buckets.number(job, number);
   if (layer.count != found) throw std::logic_error("a cell was met twice");
   return layer;
 }
@@ -207,6 +268,7 @@ Layer canonical_cells(const Copies& copies, const Id* cells, std::size_t count, 
 
 template <int D>
 std::vector<Layer> quotient(const Copies& copies, const Id* cells, std::size_t count, Job& job) {
+  if (copies.rows > std::size_t{1} << kRowBits) throw std::length_error("too many points");
   std::vector<Layer> layers(D + 1);
   layers[D] = canonical_cells<D>(copies, cells, count, job);
   job.advance(0.1);

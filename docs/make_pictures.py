@@ -73,6 +73,15 @@ def cells():
     return figure_bytes(figure, "svg")
 
 
+def periodic():
+    """Draw a complex in a box whose border a hole crosses, as the page tells."""
+    points = np.random.default_rng(3).random((260, 2)) * 10
+    away = np.abs(points - [9, 1.5])
+    points = points[np.hypot(*np.minimum(away, 10 - away).T) > 2]
+    cx = am.AlphaComplex(points, periods=(10, 10))
+    return figure_bytes(cx.plot(0.42).figure, "svg")
+
+
 def topology():
     """Draw the same classes of homology in three ways."""
     cx = tutorial_complex()
@@ -234,6 +243,7 @@ MAKERS = {
     "outlines.png": outlines,
     "radii.png": three_radii,
     "cells.svg": cells,
+    "periodic.svg": periodic,
     "topology.png": topology,
     "soho.png": soho,
     "airports.png": airports,

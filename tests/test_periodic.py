@@ -18,6 +18,7 @@ from alphamesh.errors import (
     CoordinateRangeError,
     InvalidResultError,
     NonFiniteError,
+    ParameterError,
     PeriodsError,
 )
 from periodic_oracle import exact_values
@@ -259,6 +260,19 @@ def test_threads_change_nothing():
     first = am.AlphaComplex(points, periods=(1, 1), threads=1)
     second = am.AlphaComplex(points, periods=(1, 1), threads=2)
     assert named(first) == named(second)
+
+
+def test_progress_never_goes_back(monkeypatch):
+    import alphamesh.periodic._making as stage
+
+    monkeypatch.setattr(stage, "_HALO", 1e-9)  # all is done three times
+    told = []
+    points = np.random.default_rng(4).random((52_000, 2))
+    am.AlphaComplex(points, periods=(1, 1), progress=told.append)
+    assert told == sorted(told)
+    assert told[-1] == 1
+    with pytest.raises(ParameterError):
+        am.AlphaComplex(points[:5], periods=(1, 1), progress=5)
 
 
 def test_narrow_and_wide_margins_give_the_same(monkeypatch):

@@ -20,6 +20,7 @@ from alphamesh.cli.building import (
 from alphamesh.cli.command import Command
 from alphamesh.cli.files import TableFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
+from alphamesh.cli.periods import betti_text, class_names, periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted
 from alphamesh.cli.tables import write_table
@@ -31,6 +32,7 @@ _EXAMPLES = (
     "alphamesh betti points.csv -o betti.csv --plot betti.png",
     "alphamesh betti demo:cheese --radius 8 --json",
     "alphamesh sample demo:target -o - | alphamesh betti - -o - | head",
+    "alphamesh betti atoms.csv --periods 10,10,10 -o betti.csv",
 )
 
 
@@ -39,6 +41,7 @@ _EXAMPLES = (
 @output_options(TableFile(".csv"), "Write the curve here", name="tables")
 @plot_option("Draw the curve.")
 @radius_option
+@periods_option
 @cloud_options
 def command(
     source: str,
@@ -75,16 +78,19 @@ def command(
             files.append(Output(picture, draw))
         outputs.write(files, steps)
     found = pairs.betti_numbers(choice.radius).tolist()
-    classes = ("component", "hole") if len(found) == 2 else ("component", "tunnel", "void")
+    names = class_names(job.complex)
     facts = {
         "radius": choice.radius,
         "rule": choice.rule,
-        **{f"{name}s": number for name, number in zip(classes, found, strict=True)},
+        **{
+            plural.replace(" ", "_"): count
+            for (_, plural), count in zip(names, found, strict=True)
+        },
         "steps": len(radii),
     }
     lines = {
         "Radius": radius_text(choice),
-        "Betti numbers": ", ".join(map(counted, found, classes)),
+        "Betti numbers": betti_text(found, names),
         "Curve": counted(len(radii), "step"),
     }
     job.tell(facts, lines, outputs)

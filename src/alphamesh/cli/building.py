@@ -20,6 +20,7 @@ from alphamesh.cli.command import (
 from alphamesh.cli.files import FigureFile
 from alphamesh.cli.inputs import Input, InputOptions, load, sampling_options, table_options
 from alphamesh.cli.outputs import Outputs, write_bytes
+from alphamesh.cli.periods import periods_facts
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import (
     counted,
@@ -116,7 +117,12 @@ class Job:
         if crs is not None:
             given = given.placed(crs)
         with steps.step(f"Triangulating {counted(len(given.points), 'point')}") as done:
-            built = AlphaComplex(given.cloud, threads=options["threads"], progress=done)
+            built = AlphaComplex(
+                given.cloud,
+                periods=options.get("periods"),
+                threads=options["threads"],
+                progress=done,
+            )
         return cls(given, built, options["as_json"])
 
     def choose(self, radius: float | Rule, steps: Steps) -> RadiusChoice:
@@ -152,6 +158,7 @@ class Job:
         points = len(self.complex.points)
         sizes = outputs.sizes()
         units = setting("units")
+        box, box_line = periods_facts(self.complex)
         if outputs.streamed:
             pass  # standard output is taken
         elif self.as_json:
@@ -162,6 +169,7 @@ class Job:
                     "duplicates": self.duplicates,
                     **({} if self.complex.weights is None else {"hidden": self.hidden}),
                     **({"units": units} if units else {}),
+                    **box,
                     **facts,
                     "files": [{"path": path, "bytes": size} for path, size in sizes.items()],
                     "failures": outputs.failures,
@@ -173,6 +181,7 @@ class Job:
                 {
                     "Input": self.given.text,
                     "Points": points_text(points, self.duplicates, self.hidden),
+                    **box_line,
                     **lines,
                     **({"Written": "\n".join(written)} if written else {}),
                 }

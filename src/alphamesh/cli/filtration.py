@@ -12,6 +12,7 @@ from alphamesh.cli.building import Job, cloud_options, source_argument
 from alphamesh.cli.command import Command
 from alphamesh.cli.files import TableFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
+from alphamesh.cli.periods import periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import length_text
 from alphamesh.cli.tables import write_table
@@ -19,8 +20,6 @@ from alphamesh.cli.types import MostRadius
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from alphamesh.filtration import Filtration
 
 __all__ = ["command"]
 
@@ -48,6 +47,7 @@ _EXAMPLES = (
     help="Leave out simplices that come later; at least 0 without --weights.  [default: none]",
 )
 @click.option("--squared", is_flag=True, help="Write squared radii, the values of GUDHI.")
+@periods_option
 @cloud_options
 def command(
     source: str,
@@ -61,8 +61,9 @@ def command(
     INPUT is a mask image, a file of points, "-" for standard input, or demo:NAME
     for a built-in shape. A table has one line for each simplex, in the order in
     which they come: dimension, its vertices as rows of INPUT counted from 0 (-1
-    where there are fewer), and the radius. NPZ has arrays for each dimension,
-    and the points.
+    where there are fewer), and the radius; with --periods also how many periods
+    the second and further vertices lie from their places in the box. NPZ has
+    arrays for each dimension, and the points.
     """
     check_targets(tables, source)
     outputs = Outputs()
@@ -76,7 +77,7 @@ def command(
 class _Simplices:
     """Simplices up to a radius, ready to be written."""
 
-    def __init__(self, given: Filtration, most: float | None, squared: bool) -> None:
+    def __init__(self, given: Any, most: float | None, squared: bool) -> None:
         self.given = given
         self.squared = squared
         kept = [
@@ -87,6 +88,11 @@ class _Simplices:
         self.simplices = [rows.compress(keep, axis=0) for rows, keep in pairs]
         values = zip(given.radii, kept, strict=True)
         self.radii = [radii.compress(keep) for radii, keep in values]
+        offsets = getattr(given, "offsets", None)
+        self.offsets: list[NDArray[np.int8]] | None = None
+        if offsets is not None:
+            moved = zip(offsets, kept, strict=True)
+            self.offsets = [moves.compress(keep, axis=0) for moves, keep in moved]
 
     def told(self) -> tuple[dict[str, Any], dict[str, str]]:
         """Return how many there are, and when the last one comes."""
@@ -125,6 +131,8 @@ class _Simplices:
                 for rows in self.simplices
             ]
             columns[f"vertex_{corner}"] = np.concatenate(parts)[order]
+        if self.offsets is not None:
+            columns |= _offset_columns(self.offsets, order)
         columns["radius_squared" if self.squared else "radius"] = values[order]
         return columns
 
@@ -140,4 +148,26 @@ class _Simplices:
         for (plural, singular), rows, values in parts:
             arrays[plural] = rows
             arrays[f"{singular}_{ending}"] = values
+        if self.offsets is not None:
+            names = (f"{singular}_offsets" for _, singular in _NAMES)
+            arrays |= dict(zip(names, self.offsets, strict=False))
+            arrays["positions"] = self.given.positions
+            arrays["periods"] = np.array([side or np.inf for side in self.given.periods])
         return arrays
+
+
+def _offset_columns(
+    offsets: list[NDArray[np.int8]], order: NDArray[np.intp]
+) -> dict[str, NDArray[Any]]:
+    """Return how many periods each corner but the first lies from its place in the box."""
+    columns = {}
+    for corner in range(1, len(offsets)):
+        for axis, name in zip(range(len(offsets) - 1), "xyz", strict=False):
+            parts = [
+                moves[:, corner, axis]
+                if corner < moves.shape[1]
+                else np.zeros(len(moves), np.int8)
+                for moves in offsets
+            ]
+            columns[f"offset_{corner}_{name}"] = np.concatenate(parts)[order]
+    return columns

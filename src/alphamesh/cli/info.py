@@ -15,11 +15,12 @@ from alphamesh.cli.demos import demo_shape, demo_solid
 from alphamesh.cli.inputs import InputOptions, load, table_options
 from alphamesh.cli.kinds import DEMO, IMAGE, MESH, POINTS, holds, ply_elements
 from alphamesh.cli.mesh_facts import tell_surface
+from alphamesh.cli.periods import periods_facts, periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.streams import STDIN, from_standard_input
 from alphamesh.cli.summary import counted, number, points_text, print_json, print_lines
 from alphamesh.cli.weights import weights_option
-from alphamesh.errors import AlphameshError
+from alphamesh.errors import AlphameshError, ParameterError
 from alphamesh.measures import edge_lengths
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ _EXAMPLES = (
 @click.argument("source", metavar="FILE")
 @table_options
 @weights_option
+@periods_option
 @threads_option
 @json_option
 @quiet_option
@@ -65,16 +67,17 @@ def command(source: str, **options: Any) -> None:
     chosen for them. FILE can be "-" for a table on standard input, or
     demo:NAME for a built-in shape.
     """
-    threads, as_json, quiet = (options.pop(name) for name in ("threads", "as_json", "quiet"))
+    names = ("threads", "as_json", "quiet", "periods")
+    threads, as_json, quiet, periods = (options.pop(name) for name in names)
     given = InputOptions(**options)
     with Steps(quiet=quiet) as steps:
         if source == STDIN:
             with from_standard_input(given.suffix) as path:
-                facts, lines = _told(str(path), given, threads, steps)
+                facts, lines = _told(str(path), given, threads, steps, periods)
             lines = {k: text.replace(str(path), "standard input") for k, text in lines.items()}
             facts["name"] = STDIN
         else:
-            facts, lines = _told(source, given, threads, steps)
+            facts, lines = _told(source, given, threads, steps, periods)
     if as_json:
         print_json(facts)
     else:
@@ -84,9 +87,19 @@ def command(source: str, **options: Any) -> None:
 Told = tuple[dict[str, Any], dict[str, str]]
 
 
-def _told(source: str, given: InputOptions, threads: int | None, steps: Steps) -> Told:
+def _told(
+    source: str,
+    given: InputOptions,
+    threads: int | None,
+    steps: Steps,
+    periods: tuple[float | None, ...] | None,
+) -> Told:
     """Tell of a demo shape or a file, whatever it holds."""
     kind = holds(source, given.file_format)
+    if periods is not None:
+        if kind != POINTS:
+            raise ParameterError("--periods is for files of points; leave it out")
+        return _periodic(source, given, threads, steps, periods)
     if kind == DEMO:
         return _demo(source)
     if kind == IMAGE:
@@ -127,6 +140,43 @@ def _points(source: str, options: InputOptions, threads: int | None, steps: Step
         plain = complex_ if given.weights is None else filtration(given.points, threads=threads)
         _tell_spacing(plain, facts, lines)
         choice = choose_radius(complex_)
+        facts |= {"radius": choice.radius, "rule": choice.rule, "reason": choice.reason}
+        lines["Suggested radius"] = f"{number(choice.radius)}  ({choice.rule})"
+        lines[""] = choice.reason
+    return facts, lines
+
+
+def _periodic(
+    source: str,
+    options: InputOptions,
+    threads: int | None,
+    steps: Steps,
+    periods: tuple[float | None, ...],
+) -> Told:
+    from alphamesh.periodic import choose_periodic_radius, periodic_filtration
+
+    given = load(source, options, steps)
+    with steps.step(f"Triangulating {counted(len(given.points), 'point')}") as done:
+        made = periodic_filtration(
+            given.points, periods, weights=given.weights, threads=threads, progress=done
+        )
+    count, hidden = len(made.points), len(made.hidden)
+    duplicates = count - len(made.simplices[0]) - hidden
+    box, box_line = periods_facts(made)
+    facts: dict[str, Any] = {
+        **given.facts,
+        "points": count,
+        "duplicates": duplicates,
+        **({} if given.weights is None else {"hidden": hidden}),
+        **box,
+        "simplicial": made.is_simplicial,
+    }
+    lines = {"File": given.text, "Points": points_text(count, duplicates, hidden), **box_line}
+    if not made.is_simplicial:
+        lines["Simplices"] = "some meet themselves: few points for the box"
+    if count:
+        _tell_bounds(made.points, facts, lines)
+        choice = choose_periodic_radius(made)
         facts |= {"radius": choice.radius, "rule": choice.rule, "reason": choice.reason}
         lines["Suggested radius"] = f"{number(choice.radius)}  ({choice.rule})"
         lines[""] = choice.reason

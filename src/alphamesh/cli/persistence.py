@@ -20,6 +20,7 @@ from alphamesh.cli.building import (
 from alphamesh.cli.command import Command
 from alphamesh.cli.files import TableFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
+from alphamesh.cli.periods import periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import length_text, number
 from alphamesh.cli.tables import write_table
@@ -56,6 +57,7 @@ _EXAMPLES = (
     help="Death against birth, bars, or how many there are at each radius.",
 )
 @radius_option
+@periods_option
 @cloud_options
 def command(
     source: str,
@@ -91,23 +93,29 @@ def command(
 
             files.append(Output(picture, draw))
         outputs.write(files, steps)
-    facts, lines = _told(pairs)
+    facts, lines = _told(pairs, job)
     job.tell(facts, lines, outputs)
 
 
-def _told(pairs: Persistence) -> tuple[dict[str, Any], dict[str, str]]:
+def _told(pairs: Persistence, job: Job) -> tuple[dict[str, Any], dict[str, str]]:
     components, *others = pairs.diagrams()
     finite = components[np.isfinite(components[:, 1]), 1]
     joined = float(finite.max(initial=0.0))
     facts: dict[str, Any] = {"components": len(components), "connected_from": joined}
     lines = {"Components": f"{len(components):,}, all joined at radius {length_text(joined)}"}
-    names = ("holes",) if len(others) == 1 else ("loops", "voids")
-    for name, rows in zip(names, others, strict=True):
+    plane = job.complex.points.shape[1] == 2
+    periodic = getattr(job.complex, "periods", None) is not None
+    names = ("loops" if periodic else "holes",) if plane else ("loops", "voids")
+    # Of a torus, a class of its own dimension is left over: it comes last, and stays.
+    for name, rows in zip(names, others, strict=not periodic):
         by_length = np.argsort(rows[:, 0] - rows[:, 1], kind="stable")
         longest = rows[by_length[:_TOLD]]
         bars = [f"{number(birth)} to {length_text(death)}" for birth, death in longest]
         facts |= {name: len(rows), f"longest_{name}": longest}
-        lines[name.capitalize()] = f"{len(rows):,} that come and go"
+        staying = int(np.isinf(rows[:, 1]).sum())
+        lines[name.capitalize()] = f"{len(rows) - staying:,} that come and go" + (
+            f", {staying} that stay" if staying else ""
+        )
         lines[f"Longest {name}"] = "\n".join(bars) or "none"
     return facts, lines
 

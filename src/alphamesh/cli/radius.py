@@ -10,11 +10,14 @@ import click
 from alphamesh.cli.building import Job, cloud_options, radius_text, source_argument
 from alphamesh.cli.command import Command
 from alphamesh.cli.outputs import Outputs
+from alphamesh.cli.periods import betti_text, class_names, periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, number
 from alphamesh.cli.types import AUTO, RULE_OPTIONS, BettiType, RuleName
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from alphamesh.radius import RadiusChoice
 
 __all__ = ["command"]
@@ -58,6 +61,7 @@ _EXAMPLES = (
 @click.option("--regions", type=click.IntRange(1), metavar="N", help="At most N regions.")
 @click.option("--triangles", type=click.IntRange(1), metavar="N", help="At least N triangles.")
 @click.option("--tetrahedra", type=click.IntRange(1), metavar="N", help="So many in space.")
+@periods_option
 @cloud_options
 def command(source: str, rule: str, **options: Any) -> None:
     """Choose a radius for a cloud, and say why.
@@ -74,11 +78,13 @@ def command(source: str, rule: str, **options: Any) -> None:
         job = Job.begin(source, options, steps, space=True)
         with steps.step("Choosing the radius"):
             choice = job.complex.choose_radius(None if rule == AUTO else rule, **wanted)
-    facts, lines = _told(choice)
+    facts, lines = _told(choice, class_names(job.complex))
     job.tell(facts, lines, Outputs())
 
 
-def _told(choice: RadiusChoice) -> tuple[dict[str, Any], dict[str, str]]:
+def _told(
+    choice: RadiusChoice, names: Sequence[tuple[str, str]]
+) -> tuple[dict[str, Any], dict[str, str]]:
     facts = {
         "radius": choice.radius,
         "rule": choice.rule,
@@ -97,14 +103,14 @@ def _told(choice: RadiusChoice) -> tuple[dict[str, Any], dict[str, str]]:
     if choice.interval is not None:
         lines["Interval"] = _range_text(*choice.interval)
     if choice.betti is not None:
-        lines["Shape"] = _shape_text(choice.betti)
+        lines["Shape"] = betti_text(choice.betti, names)
         if choice.strays:
             lines["Shape"] += f", beside {counted(choice.strays, 'stray piece')}"
     if choice.confidence is not None:
         lines["Confidence"] = f"{choice.confidence:.2f}{'' if choice.clear else ', not clear'}"
     if choice.runners_up:
         others = (
-            f"{_range_text(other.low, other.high)}: {_shape_text(other.betti)}"
+            f"{_range_text(other.low, other.high)}: {betti_text(other.betti, names)}"
             for other in choice.runners_up
         )
         lines["Or else"] = "\n".join(others)
@@ -113,8 +119,3 @@ def _told(choice: RadiusChoice) -> tuple[dict[str, Any], dict[str, str]]:
 
 def _range_text(low: float, high: float) -> str:
     return f"{number(low)} {'and more' if math.isinf(high) else f'to {number(high)}'}"
-
-
-def _shape_text(betti: tuple[int, ...]) -> str:
-    names = ("component", "hole") if len(betti) == 2 else ("component", "tunnel", "void")
-    return ", ".join(map(counted, betti, names))

@@ -154,9 +154,10 @@ def _weighted(ctx: click.Context | None) -> bool:
 
 def _known_rules() -> tuple[str, ...]:
     """Return ``auto`` and the names of the rules, those of the plane first."""
+    from alphamesh.periodic import PERIODIC_RULES
     from alphamesh.radius import rule_names
 
-    names = rule_names(2) + rule_names(3) + rule_names(weighted=True)
+    names = rule_names(2) + rule_names(3) + rule_names(weighted=True) + PERIODIC_RULES
     return (AUTO, *dict.fromkeys(names))
 
 

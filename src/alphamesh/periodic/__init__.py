@@ -4,11 +4,12 @@ from alphamesh.periodic._box import as_periods
 from alphamesh.periodic._filtration import PeriodicFiltration
 from alphamesh.periodic._making import periodic_filtration
 from alphamesh.periodic._persistence import PeriodicPersistence, periodic_persistence
-from alphamesh.periodic._radius import choose_periodic_radius
+from alphamesh.periodic._radius import PERIODIC_RULES, choose_periodic_radius
 from alphamesh.periodic._shape import PeriodicShape
 from alphamesh.periodic._tiling import tiled_points
 
 __all__ = [
+    "PERIODIC_RULES",
     "PeriodicFiltration",
     "PeriodicPersistence",
     "PeriodicShape",

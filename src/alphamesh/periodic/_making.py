@@ -84,7 +84,7 @@ def periodic_filtration(
     # Equal weights change no simplex, and values by a formula.
     weight = 0.0 if cloud.weights is None else equal_weight(cloud.weights)
     box = box_cloud(cloud.points, sides, cloud.weights if weight is None else None)
-    copies, star = _certain_star(box, progress)
+    copies, star = _certain_star(box, _forward(progress))
     layers, cofaces = periodic_complex(
         copies.rows,
         copies.offsets,
@@ -127,6 +127,20 @@ def _hidden(box: BoxCloud, vertices: IntArray) -> IntArray:
     return read_only(
         np.flatnonzero(~(seen | (twins & seen[box.representative]))).astype(np.int32)
     )
+
+
+def _forward(progress: Progress | None) -> Progress | None:
+    """Return `progress` as of work that may be done again: it never goes back."""
+    if not callable(progress):
+        return progress  # refused, or none
+    told = 0.0
+
+    def forward(share: float) -> object:
+        nonlocal told
+        told = max(told, share)
+        return progress(told)
+
+    return forward
 
 
 def _certain_star(box: BoxCloud, progress: Progress | None) -> tuple[Copies, Star]:

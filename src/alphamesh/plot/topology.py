@@ -13,6 +13,8 @@ from alphamesh.plot.chart import Chart
 from alphamesh.plot.style import COLORS
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.axes import Axes
 
     from alphamesh.persistence import Persistence
@@ -29,10 +31,19 @@ __all__ = [
 
 # What classes are called, by dimension: loops are holes where they lie in the plane.
 _ROLES = {2: ("components", "holes"), 3: ("components", "loops", "voids")}
+# In a periodic box, what runs around it is no hole.
+_PERIODIC_ROLES = {2: ("components", "loops"), 3: _ROLES[3]}
 _SINGULAR = {"components": "component", "holes": "hole", "loops": "loop", "voids": "void"}
 
 # Finer than the pixels of any chart: marks and steps closer than this are one.
 _CELLS = 1500
+
+
+def _roles(persistence: Persistence) -> tuple[str, ...]:
+    """Return what classes are called; that of a whole periodic box, the last, is not drawn."""
+    columns = persistence.filtration.points.shape[1]
+    periodic = getattr(persistence.filtration, "periods", None) is not None
+    return (_PERIODIC_ROLES if periodic else _ROLES)[columns]
 
 
 def plot_diagram(
@@ -66,7 +77,7 @@ def plot_diagram(
     if any(np.isinf(rows[:, 1]).any() for rows in diagrams):
         chart.line("diagonal", [low, top], [above, above], 0.8, style=(0, (4, 3)))
         chart.note("never ends", (top, above), (0, 4), "right")
-    for role, rows in zip(_ROLES[len(diagrams)], diagrams, strict=True):
+    for role, rows in zip(_roles(persistence), diagrams, strict=False):
         marks = np.where(np.isinf(rows), above, rows)
         chart.marks(role, _apart(marks, low, top), 3.4)
     if radius is not None:
@@ -118,7 +129,7 @@ def plot_barcode(
     low, top = _ends(diagrams, radius)
     top += 0.08 * (top - low)
     level = 0
-    for role, rows in zip(_ROLES[len(diagrams)], diagrams, strict=True):
+    for role, rows in zip(_roles(persistence), diagrams, strict=False):
         order = np.argsort(rows[:, 0] - rows[:, 1], kind="stable")
         bars = rows[order[:most]]
         _add_bars(chart, role, np.minimum(bars, top), -level - np.arange(len(bars)))
@@ -197,7 +208,7 @@ def add_betti_curves(
         chart.ax.set_xscale("log")
     # Linear up to 1, so that none and one have a place of their own.
     chart.ax.set_yscale("symlog", linthresh=1, linscale=0.5)
-    roles = _ROLES[numbers.shape[1]]
+    roles = _roles(persistence)
     for column, role in enumerate(roles):
         x, y = _steps(radii, numbers[:, column], low, linear=linear)
         (line,) = chart.ax.step(
@@ -230,14 +241,23 @@ def _mark(
     chart.line("radius", [marked, marked], [0, top], 1.2)
     linear = persistence.filtration.weights is not None
     left = 2 * marked < low + high if linear else marked * marked < low * high
-    text = f"r = {radius:.4g}: {betti_text(*persistence.betti_numbers(radius).tolist())}"
+    text = f"r = {radius:.4g}: {_marked_text(persistence, radius)}"
     offset, align = ((4, -26), "left") if left else ((-4, -26), "right")
     chart.note(text, (marked, top), offset, align, "radius")
 
 
+def _marked_text(persistence: Persistence, radius: float) -> str:
+    roles = _roles(persistence)
+    return _counts_text(persistence.betti_numbers(radius).tolist(), roles)
+
+
 def betti_text(*numbers: int) -> str:
     """Return Betti numbers, b0 and b1 in the plane or b0, b1 and b2 in space, in words."""
-    named = zip(numbers, _ROLES[len(numbers)], strict=True)
+    return _counts_text(numbers, _ROLES[len(numbers)])
+
+
+def _counts_text(numbers: Sequence[int], roles: tuple[str, ...]) -> str:
+    named = zip(numbers, roles, strict=False)
     return ", ".join(
         f"{number:,} {_SINGULAR[name] if number == 1 else name}" for number, name in named
     )
