@@ -129,7 +129,7 @@ void Plane::prove_filtration() {
 
 void Plane::prove_persistence() {
   const auto pairs =
-      alphamesh::persistence2(view_, f_.triangle_radii.data(), f_.edge_radii.data(), job_);
+      alphamesh::persistence2(view_, nullptr, f_.triangle_radii.data(), f_.edge_radii.data(), job_);
   const std::vector<double> zero(vertices_.size(), 0.0);
   std::vector<Id> number(cloud_.n, -1);
   for (std::size_t i = 0; i < vertices_.size(); ++i) number[vertices_[i]] = static_cast<Id>(i);
@@ -348,8 +348,9 @@ void Plane::prove_nearest() {
   for (std::size_t q = 0; q < m; ++q) {
     const auto& p = g_.plain(static_cast<Id>(cloud_.n + q));
     long double least = HUGE_VALL;
-    for (const auto& [a, b] : edges_)
+    for (const auto& [a, b] : edges_) {
       least = std::min(least, distance(p, g_.plain(a), g_.plain(b)));
+    }
     const auto [a, b] = edges_[static_cast<std::size_t>(found.place[q])];
     const long double slack = 1e-14L * size + 1e-300L;
     require(distance(p, g_.plain(a), g_.plain(b)) <= least + slack, "the nearest edge");

@@ -38,13 +38,7 @@ Built build(const std::vector<double>& points, Job& job) {
   }
   auto sheet = alphamesh::sheet_of(out.order, span, job);
   alphamesh::Mesh2 mesh = alphamesh::delaunay2(sheet, job);
-  alphamesh::Filtration2 flat = alphamesh::filtration2(sheet, mesh, job);
-  out.f.triangle_tetrahedra = Buffer<Id>(2 * flat.triangle_radii.size());
-  std::fill(out.f.triangle_tetrahedra.begin(), out.f.triangle_tetrahedra.end(), -1);
-  out.f.triangles = std::move(flat.triangles);
-  out.f.triangle_radii = std::move(flat.triangle_radii);
-  out.f.edges = std::move(flat.edges);
-  out.f.edge_radii = std::move(flat.edge_radii);
+  out.f = alphamesh::in_space(alphamesh::filtration2(sheet, mesh, job));
   return out;
 }
 
@@ -203,9 +197,9 @@ void Space::prove_persistence() {
             "triangles lie opposite to the vertices of tetrahedra");
   }
   const auto pairs = alphamesh::persistence3(
-      {cloud_.n, f_.edges.data(), f_.edge_radii.data(), edges_.size(), triangle_edges.data(),
-       f_.triangle_tetrahedra.data(), f_.triangle_radii.data(), triangles_.size(),
-       f_.tetrahedron_radii.data(), tetrahedra_.size()},
+      {cloud_.n, nullptr, f_.edges.data(), f_.edge_radii.data(), edges_.size(),
+       triangle_edges.data(), f_.triangle_tetrahedra.data(), f_.triangle_radii.data(),
+       triangles_.size(), f_.tetrahedron_radii.data(), tetrahedra_.size()},
       job_);
   const std::vector<double> zero(vertices_.size(), 0.0);
   std::vector<Id> number(cloud_.n, -1);
@@ -264,8 +258,7 @@ void Space::prove_triangulation_alone() {
   if (tetrahedra_.empty()) return;
   const auto order = alphamesh::spatial_order3(cloud_.coordinates.data(), cloud_.n, job_);
   const auto span = alphamesh::spanning_points(order, job_);
-  auto mesh = alphamesh::compact3(order, alphamesh::delaunay3(order, span, job_), job_);
-  alphamesh::write_rows(order, mesh, job_);
+  auto mesh = alphamesh::rows3(order, alphamesh::delaunay3(order, span, job_), job_);
   const auto rows = rows_of<4>(mesh.vertex.data(), mesh.count);
   std::map<Row<3>, std::vector<Id>> around;
   for (std::size_t i = 0; i < rows.size(); ++i) {
