@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from alphamesh import check, errors, migrate, plot
+    from alphamesh._kernels import trim_memory
     from alphamesh.classify import SimplexKind
     from alphamesh.complex import AlphaComplex
     from alphamesh.complex3d import AlphaComplex3D
@@ -137,6 +138,7 @@ __all__ = [
     "restricted_voronoi",
     "sample_mask",
     "sample_solid",
+    "trim_memory",
     "union_of_balls",
     "voronoi",
     "write_geo",
@@ -145,6 +147,7 @@ __all__ = [
 
 _MODULES = ("check", "errors", "migrate", "plot")
 _HOMES = {
+    "_kernels": ("trim_memory",),
     "classify": ("SimplexKind",),
     "complex": ("AlphaComplex",),
     "complex3d": ("AlphaComplex3D",),

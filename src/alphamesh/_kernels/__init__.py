@@ -39,6 +39,7 @@ __all__ = [
     "resolve_threads",
     "self_test",
     "triangle_edges2",
+    "trim_memory",
 ]
 
 Progress: TypeAlias = Callable[[float], object]
@@ -268,6 +269,22 @@ def triangle_edges2(
 def self_test() -> str:
     """Return '' if floating-point arithmetic works as the core needs it, else why not."""
     return _core.self_test()
+
+
+def trim_memory() -> None:
+    """Give memory that is kept for the next call back to the system.
+
+    The core keeps up to an eighth of the machine's memory, 2 GiB at most, of what earlier
+    calls have freed, as fresh pages cost up to a third of a call on a large cloud. The
+    system may take it whenever it needs some; until then it counts as that of the process.
+    Results that you hold are not touched.
+
+    Examples
+    --------
+    >>> import alphamesh as am
+    >>> am.trim_memory()
+    """
+    _core.trim_memory()
 
 
 def _check_progress(progress: Progress | None) -> None:
