@@ -140,6 +140,19 @@ def test_values_of_slivers(height):
                 assert relative_error(value, orthocentre(exact, heavy)[1]) <= PROMISED
 
 
+def test_an_orthocentre_on_an_edge():
+    """Right angles whose squares are no floats: one value, to the last bit."""
+    rng = np.random.default_rng(7)
+    for _ in range(200):
+        p, q = rng.integers(2**29, 2**31, 2).tolist()
+        k, (x, y) = int(rng.integers(1, 4)), rng.integers(-(2**30), 2**30, 2).tolist()
+        points = [[x, y], [x + p, y + q], [x - k * q, y + k * p]]
+        values = values_of(regular2(points, [0, 0, 0]))
+        assert values[1, 2] == values[0, 1, 2]
+        power = Fraction((p * p + q * q) * (1 + k * k), 4)
+        assert relative_error(values[1, 2], power) <= PROMISED
+
+
 # ------------------------------------------------------------------- known answers
 
 
