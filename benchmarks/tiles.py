@@ -165,8 +165,8 @@ def _measure(  # noqa: PLR0913, PLR0917 (what the command line says)
         f"{len(result.tiling):,}",
         who,
         f"{taken:.0f} s",
-        f"{speed / 1e6:.2f}",
-        f"{measure / 1e6:.2f}",
+        f"{speed / 1e6:.2g}",
+        f"{measure / 1e6:.2g}",
         f"{speed / measure:.2f}",
         core_seconds,
         f"{measured_work * 1e6:.2f}",
@@ -253,14 +253,14 @@ def _costs(folder: Path, kind: Kind, tile_points: int) -> str:
     return "\n".join(f"| {name} | {value} |" for name, value in lines)
 
 
-def _timed(work: Callable[[], Result], times: int = 3) -> tuple[float, Result]:
-    """Return the median of the processor's time, which other programs disturb little."""
+def _timed(work: Callable[[], Result], times: int = 5) -> tuple[float, Result]:
+    """Return the least of some processor times, which others only make longer."""
     taken = []
     for _ in range(times):
         start = time.process_time()
         result = work()
         taken.append(time.process_time() - start)
-    return statistics.median(taken), result
+    return min(taken), result
 
 
 def _written(folder: Path, kind: Kind, count: int) -> tiles.Dataset:
