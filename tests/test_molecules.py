@@ -342,13 +342,13 @@ def test_voids_of_a_cage(written):
     lines = [line(" C1 ", "LIG", 1, place, "C") for place in np.concatenate((corners, faces))]
     molecule = read_molecule(written(lines))
     found = am.AlphaComplex(molecule.points, weights=molecule.weights()).union(0)
-    assert len(found.void_volumes) == 1
+    assert len(found.voids.volumes) == 1
     assert found.void_balls(0).tolist() == list(range(14))
     rng = np.random.default_rng(0)
     queries = rng.uniform(-0.5, 3.5, (40_000, 3))
     away = np.linalg.norm(queries[:, None] - molecule.points, axis=2).min(axis=1)
     share = (away > 1.7).mean()
     error = 64 * np.sqrt(share * (1 - share) / len(queries))
-    assert found.void_volumes[0] == pytest.approx(64 * share, abs=4 * error)
+    assert found.voids.volumes[0] == pytest.approx(64 * share, abs=4 * error)
     probed = am.AlphaComplex(molecule.points, weights=molecule.weights(1.4)).union(0)
-    assert len(probed.void_volumes) == 0
+    assert len(probed.voids.volumes) == 0

@@ -85,7 +85,7 @@ def test_three_balls_that_meet_in_pairs_only():
     cap = PI * 0.1**2 * 2.9 / 3
     assert found.volume == pytest.approx(4 * PI - 6 * cap, rel=1e-12)
     assert found.surface_area == pytest.approx(12 * PI - 6 * TURN * 0.1, rel=1e-12)
-    assert len(found.void_volumes) == 0
+    assert len(found.voids.volumes) == 0
 
 
 def test_three_discs():
@@ -99,15 +99,15 @@ def test_three_discs():
         if radius < 1 / math.sqrt(3):
             gap = math.sqrt(3) / 4 - PI * radius**2 / 2 + 1.5 * lens
             assert found.area == pytest.approx(pairs, rel=1e-12)
-            assert found.hole_areas == pytest.approx([gap], abs=1e-13)
+            assert found.holes.areas == pytest.approx([gap], abs=1e-13)
             assert found.hole_discs(0).tolist() == [0, 1, 2]
             arc = 3 * radius * (PI / 3 - 2 * half)
-            assert found.hole_perimeters == pytest.approx([arc], abs=1e-12)
+            assert found.holes.perimeters == pytest.approx([arc], abs=1e-12)
         else:
             outside = math.sqrt(3) / 4 + 1.5 * radius**2 * (5 / 3 * PI - 2 * half)
             outside += 1.5 * math.sqrt(radius**2 - 0.25)
             assert found.area == pytest.approx(outside, rel=1e-12)
-            assert len(found.hole_areas) == 0
+            assert len(found.holes.areas) == 0
 
 
 def test_a_cube_of_balls():
@@ -116,13 +116,13 @@ def test_a_cube_of_balls():
     assert touching.volume == pytest.approx(8 * PI / 6, rel=1e-14)
     assert touching.ball_surface_areas == pytest.approx([PI] * 8, rel=1e-14)
     found = union(cube, 0.8)  # faces are covered, the middle is not
-    assert len(found.void_volumes) == 1
+    assert len(found.voids.volumes) == 1
     assert found.void_balls(0).tolist() == list(range(8))
     assert found.void_balls(-1).tolist() == list(range(8))
     with pytest.raises(IndexError, match="void 1 of 1"):
         found.void_balls(1)
-    outside = found.surface_area - found.void_surface_areas[0]
-    assert outside > found.void_surface_areas[0] > 0
+    outside = found.surface_area - found.voids.surface_areas[0]
+    assert outside > found.voids.surface_areas[0] > 0
 
 
 def test_nested_and_merged():
@@ -169,8 +169,8 @@ def test_equals_buffers_of_shapely(radius):
     assert found.perimeter == pytest.approx((4 * fine.length - coarse.length) / 3, rel=1e-6)
     parts = shapely.get_parts(fine)
     inner = [shapely.Polygon(ring).area for part in parts for ring in part.interiors]
-    assert len(inner) == len(found.hole_areas)
-    assert found.hole_areas == pytest.approx(sorted(inner, reverse=True), rel=1e-2)
+    assert len(inner) == len(found.holes.areas)
+    assert found.holes.areas == pytest.approx(sorted(inner, reverse=True), rel=1e-2)
 
 
 # ------------------------------------------------------------------ any cloud
@@ -250,7 +250,7 @@ def test_holes_and_union_fill_the_box(dimension):
     assert len(sizes) == 6**dimension  # the middle of each cell is free
     assert sizes == pytest.approx([sizes[0]] * len(sizes), rel=1e-10)
     assert sizes[0] < step**dimension
-    labels = found.hole_labels if dimension == 2 else found.void_labels
+    labels = found.holes.labels if dimension == 2 else found.voids.labels
     assert set(labels.tolist()) == set(range(6**dimension)) | ({-1} & set(labels.tolist()))
     parts = (measures(found)[2]).reshape((7,) * dimension)
     inner = parts[(slice(1, -1),) * dimension]

@@ -78,7 +78,7 @@ def test_one_line_and_one_plane_in_space():
     plane = union([[x, y, x + y] for x in range(4) for y in range(4)], 0.9)
     exact = Balls(plane.filtration, 0.9)
     assert plane.volume == pytest.approx(exact.volume, rel=1e-13)
-    assert len(line.void_volumes) == len(plane.void_volumes) == 0
+    assert len(line.voids.volumes) == len(plane.voids.volumes) == 0
 
 
 @pytest.mark.parametrize("dimension", [2, 3])

@@ -26,8 +26,8 @@ def measures(found):
 
 def holes(found):
     if isinstance(found, UnionOfDiscs):
-        return found.hole_areas, found.hole_perimeters
-    return found.void_volumes, found.void_surface_areas
+        return found.holes.areas, found.holes.perimeters
+    return found.voids.volumes, found.voids.surface_areas
 
 
 def area_of_discs(centres, radii):

@@ -62,7 +62,13 @@ if TYPE_CHECKING:
     from alphamesh.solid import Selection3D
     from alphamesh.surface import Surface, boundary_surface
     from alphamesh.table import PointTable
-    from alphamesh.unions import UnionOfBalls, UnionOfDiscs, union_of_balls
+    from alphamesh.unions import (
+        UnionHoles,
+        UnionOfBalls,
+        UnionOfDiscs,
+        UnionVoids,
+        union_of_balls,
+    )
     from alphamesh.voronoi import ClippedVoronoi, Voronoi, voronoi
 
     __version__: str
@@ -110,8 +116,10 @@ __all__ = [
     "Shells",
     "SimplexKind",
     "Surface",
+    "UnionHoles",
     "UnionOfBalls",
     "UnionOfDiscs",
+    "UnionVoids",
     "Voids",
     "Voronoi",
     "__version__",
@@ -186,7 +194,7 @@ _HOMES = {
     "shells": ("Shells",),
     "surface": ("Surface", "boundary_surface"),
     "table": ("PointTable",),
-    "unions": ("UnionOfBalls", "UnionOfDiscs", "union_of_balls"),
+    "unions": ("UnionHoles", "UnionOfBalls", "UnionOfDiscs", "UnionVoids", "union_of_balls"),
     "voronoi": ("ClippedVoronoi", "Voronoi", "voronoi"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray
     from alphamesh.filtration import AnyFiltration
 
-__all__ = ["ball_radii", "present", "rescaled", "scaled", "unscaled"]
+__all__ = ["ball_radii", "finite_radius", "present", "rescaled", "scaled", "unscaled"]
 
 # Coordinates that the kernels take as they are, and to which size they bring others. So
 # neither a product of four lengths nor one of two areas leaves the range of float64.
@@ -25,6 +26,19 @@ _LARGEST_RADIUS = 2.0**250
 # Squared values that differ by less, as a share of the largest square, may be in the wrong
 # order: several times what rounding can do to them.
 _CLOSE = 2e-12
+
+
+def finite_radius(radius: object, filtration: AnyFiltration) -> float:
+    """Return `radius` as a float, or say what is wrong with it."""
+    if isinstance(radius, Real) and math.isfinite(value := float(radius)):
+        if value >= 0 or filtration.weights is not None:
+            return value
+        raise ParameterError(
+            f"radius must be 0 or more where the points have no weights; got {radius!r}"
+        )
+    raise ParameterError(
+        f"radius must be a finite number, in the units of the points; got {radius!r}"
+    )
 
 
 def ball_radii(weights: FloatArray | None, radius: float, count: int) -> FloatArray:

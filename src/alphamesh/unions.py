@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Real
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
-from alphamesh._balls import ball_radii, present, rescaled, scaled, unscaled
+from alphamesh._balls import ball_radii, finite_radius, present, rescaled, scaled, unscaled
 from alphamesh._kernels.space import parts3
 from alphamesh._kernels.unions import union2, union3
 from alphamesh.errors import ParameterError
@@ -23,7 +21,7 @@ if TYPE_CHECKING:
     from alphamesh._kernels import Progress
     from alphamesh.filtration import AnyFiltration
 
-__all__ = ["UnionOfBalls", "UnionOfDiscs", "union_of_balls"]
+__all__ = ["UnionHoles", "UnionOfBalls", "UnionOfDiscs", "UnionVoids", "union_of_balls"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -64,6 +62,56 @@ class _Union(Record):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class UnionHoles(Record):
+    """The holes of a union of discs: bounded parts of the plane without it, the largest first.
+
+    Attributes
+    ----------
+    labels : (T,) int32
+        The hole in which each triangle of the filtration lies, but for what discs cover of
+        it; -1 if in none.
+    areas, perimeters : (h,) float64
+
+    All arrays are read-only.
+    """
+
+    labels: IntArray
+    areas: FloatArray
+    perimeters: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.areas)
+
+    def __repr__(self) -> str:
+        return f"<UnionHoles: {len(self):,}>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class UnionVoids(Record):
+    """The voids of a union of balls: bounded parts of space without it, the largest first.
+
+    Attributes
+    ----------
+    labels : (T,) int32
+        The void in which each tetrahedron of the filtration lies, but for what balls cover
+        of it; -1 if in none.
+    volumes, surface_areas : (v,) float64
+
+    All arrays are read-only.
+    """
+
+    labels: IntArray
+    volumes: FloatArray
+    surface_areas: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.volumes)
+
+    def __repr__(self) -> str:
+        return f"<UnionVoids: {len(self):,}>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class UnionOfDiscs(_Union):
     """The union of the discs around the points of a cloud in the plane: its measures.
 
@@ -82,11 +130,8 @@ class UnionOfDiscs(_Union):
         distance). Together they are the whole.
     disc_perimeters : (n,) float64
         Length of each disc's part of the boundary.
-    hole_labels : (T,) int32
-        The hole in which each triangle of the filtration lies, but for what discs cover of
-        it; -1 for those in no hole.
-    hole_areas, hole_perimeters : (h,) float64
-        Of the bounded parts of the plane without discs, the largest first.
+    holes : UnionHoles
+        The bounded parts of the plane without discs: their areas and perimeters.
 
     All arrays are read-only. Duplicates and hidden points have no part: their numbers are 0.
 
@@ -100,9 +145,7 @@ class UnionOfDiscs(_Union):
     area: float
     disc_areas: FloatArray
     disc_perimeters: FloatArray
-    hole_labels: IntArray
-    hole_areas: FloatArray
-    hole_perimeters: FloatArray
+    holes: UnionHoles
 
     @property
     def perimeter(self) -> float:
@@ -123,10 +166,10 @@ class UnionOfDiscs(_Union):
         IndexError
             If there is no such hole.
         """
-        return self._cells_of(self.hole_labels, hole, len(self.hole_areas), "hole")
+        return self._cells_of(self.holes.labels, hole, len(self.holes), "hole")
 
     def __repr__(self) -> str:
-        holes = len(self.hole_areas)
+        holes = len(self.holes)
         return (
             f"<UnionOfDiscs at radius {self.radius:.6g}: area {self.area:.6g}, "
             f"perimeter {self.perimeter:.6g}, {holes:,} hole{'s' * (holes != 1)}>"
@@ -152,11 +195,8 @@ class UnionOfBalls(_Union):
         distance). Together they are the whole.
     ball_surface_areas : (n,) float64
         Area of each ball's part of the boundary.
-    void_labels : (T,) int32
-        The void in which each tetrahedron of the filtration lies, but for what balls cover
-        of it; -1 for those in no void.
-    void_volumes, void_surface_areas : (v,) float64
-        Of the bounded parts of space without balls, the largest first.
+    voids : UnionVoids
+        The bounded parts of space without balls: their volumes and surface areas.
 
     All arrays are read-only. Duplicates and hidden points have no part: their numbers are 0.
 
@@ -178,9 +218,7 @@ class UnionOfBalls(_Union):
     volume: float
     ball_volumes: FloatArray
     ball_surface_areas: FloatArray
-    void_labels: IntArray
-    void_volumes: FloatArray
-    void_surface_areas: FloatArray
+    voids: UnionVoids
 
     @property
     def surface_area(self) -> float:
@@ -196,10 +234,10 @@ class UnionOfBalls(_Union):
         IndexError
             If there is no such void.
         """
-        return self._cells_of(self.void_labels, void, len(self.void_volumes), "void")
+        return self._cells_of(self.voids.labels, void, len(self.voids), "void")
 
     def __repr__(self) -> str:
-        voids = len(self.void_volumes)
+        voids = len(self.voids)
         return (
             f"<UnionOfBalls at radius {self.radius:.6g}: volume {self.volume:.6g}, "
             f"surface area {self.surface_area:.6g}, {voids:,} void{'s' * (voids != 1)}>"
@@ -264,9 +302,9 @@ def union_of_balls(
     """
     given: Any = filtration
     if isinstance(given, Filtration3D):
-        return _of_balls(given, _checked(radius, given), threads, progress)
+        return _of_balls(given, finite_radius(radius, given), threads, progress)
     if isinstance(given, Filtration):
-        return _of_discs(given, _checked(radius, given), threads, progress)
+        return _of_discs(given, finite_radius(radius, given), threads, progress)
     raise ParameterError(
         f"union_of_balls needs a filtration, not {type(given).__name__}; make one with "
         "alphamesh.filtration(points), or use AlphaComplex.union(radius)"
@@ -300,9 +338,9 @@ def _of_discs(
         unscaled(area, 2 * exponent),
         rescaled(areas, 2 * exponent),
         rescaled(perimeters, exponent),
-        labels,
-        rescaled(hole_areas, 2 * exponent),
-        rescaled(hole_perimeters, exponent),
+        UnionHoles(
+            labels, rescaled(hole_areas, 2 * exponent), rescaled(hole_perimeters, exponent)
+        ),
     )
 
 
@@ -333,22 +371,9 @@ def _of_balls(
         unscaled(volume, 3 * exponent),
         rescaled(volumes, 3 * exponent),
         rescaled(areas, 2 * exponent),
-        labels,
-        rescaled(void_volumes, 3 * exponent),
-        rescaled(void_areas, 2 * exponent),
-    )
-
-
-def _checked(radius: object, filtration: AnyFiltration) -> float:
-    """Return `radius` as a float, or say what is wrong with it."""
-    if isinstance(radius, Real) and math.isfinite(value := float(radius)):
-        if value >= 0 or filtration.weights is not None:
-            return value
-        raise ParameterError(
-            f"radius must be 0 or more where the points have no weights; got {radius!r}"
-        )
-    raise ParameterError(
-        f"radius must be a finite number, in the units of the points; got {radius!r}"
+        UnionVoids(
+            labels, rescaled(void_volumes, 3 * exponent), rescaled(void_areas, 2 * exponent)
+        ),
     )
 
 

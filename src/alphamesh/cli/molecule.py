@@ -151,7 +151,7 @@ def _measured(
 
 
 def _facts(molecule: Molecule, probe: float, found: UnionOfBalls) -> dict[str, Any]:
-    voids = zip(found.void_volumes.tolist(), found.void_surface_areas.tolist(), strict=True)
+    voids = zip(found.voids.volumes.tolist(), found.voids.surface_areas.tolist(), strict=True)
     symbols, counts = np.unique(molecule.elements, return_counts=True)
     return {
         "atoms": len(molecule),
