@@ -16,6 +16,10 @@
 namespace alphamesh {
 namespace {
 
+// Where all is degenerate, exact arithmetic takes a hundred times as long as the filters: such
+// work is worth watching long before it is large.
+constexpr std::size_t kPatience = 16;
+
 using Rows3 = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Offsets = nb::ndarray<const std::int8_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Numbers = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
@@ -69,7 +73,7 @@ nb::tuple periodic_star(const Rows3& high, const Rows3& low, const Values& weigh
   Job job(1);
   Star star;
   int dimension = -1;
-  run_watched(job, n, progress, [&] {
+  run_watched(job, kPatience * n, progress, [&] {
     Sites sites(n);
     sites.set_unit(unit);
     double heaviest = -HUGE_VAL;
@@ -110,8 +114,8 @@ nb::object offsets_array(Buffer<std::int8_t>&& offsets, std::size_t vertices) {
 // Per dimension from 0 on: rows, offsets, faces, radii; then the cofaces of facets.
 nb::tuple periodic_complex(const Numbers& rows, const Offsets& offsets, std::size_t base,
                            const Ids& cells, const Rows3& anchors, const Offsets& shifts,
-                           const nb::object& weights, const Values& periods,
-                           int exponent, int threads) {
+                           const nb::object& weights, const Values& periods, int exponent,
+                           int threads) {
   const std::size_t count = cells.shape(0), columns = cells.shape(1);
   if (columns < 2 || columns > 4) throw nb::value_error("cells of 2 to 4 vertices");
   const Copies copies{rows.data(), offsets.data(), base, anchors.shape(0)};
@@ -120,7 +124,7 @@ nb::tuple periodic_complex(const Numbers& rows, const Offsets& offsets, std::siz
   std::vector<Layer> layers;
   std::vector<Buffer<double>> radii;
   Buffer<std::int32_t> sides;
-  run_watched(job, count, nb::none(), [&] {
+  run_watched(job, kPatience * count, nb::none(), [&] {
     if (columns == 2) layers = quotient<1>(copies, cells.data(), count, job);
     if (columns == 3) layers = quotient<2>(copies, cells.data(), count, job);
     if (columns == 4) layers = quotient<3>(copies, cells.data(), count, job);
@@ -141,12 +145,12 @@ nb::object periodic_check(const Ids& cells, const Offsets& offsets, const Ids& f
                           const Ids& facet_cells, const Rows3& anchors, const Offsets& shifts,
                           const nb::object& weights, const Values& periods, int threads) {
   const std::size_t count = cells.shape(0), columns = cells.shape(1);
-  const PeriodicCells view{cells.data(), offsets.data(), faces.data(), count, facet_cells.data(),
-                           facet_cells.shape(0)};
+  const PeriodicCells view{cells.data(), offsets.data(),     faces.data(),
+                           count,        facet_cells.data(), facet_cells.shape(0)};
   const PeriodicBox box = box_of(anchors, shifts, weights, periods, 0);
   Job job(useful_threads(threads, count));
   Buffer<std::int8_t> out;
-  run_watched(job, count, nb::none(), [&] {
+  run_watched(job, kPatience * count, nb::none(), [&] {
     if (columns == 2) out = check_facets<1>(box, view, job);
     if (columns == 3) out = check_facets<2>(box, view, job);
     if (columns == 4) out = check_facets<3>(box, view, job);
@@ -159,9 +163,9 @@ nb::object periodic_check(const Ids& cells, const Offsets& offsets, const Ids& f
 void bind_periodic(nb::module_& m) {
   m.def("periodic_star", &periodic_star, nb::arg("high"), nb::arg("low"), nb::arg("weights"),
         nb::arg("unit"), nb::arg("base"), nb::arg("progress").none());
-  m.def("periodic_complex", &periodic_complex, nb::arg("rows"), nb::arg("offsets"),
-        nb::arg("base"), nb::arg("cells"), nb::arg("anchors"), nb::arg("shifts"),
-        nb::arg("weights").none(), nb::arg("periods"), nb::arg("exponent"), nb::arg("threads"));
+  m.def("periodic_complex", &periodic_complex, nb::arg("rows"), nb::arg("offsets"), nb::arg("base"),
+        nb::arg("cells"), nb::arg("anchors"), nb::arg("shifts"), nb::arg("weights").none(),
+        nb::arg("periods"), nb::arg("exponent"), nb::arg("threads"));
   m.def("periodic_check", &periodic_check, nb::arg("cells"), nb::arg("offsets"), nb::arg("faces"),
         nb::arg("facet_cells"), nb::arg("anchors"), nb::arg("shifts"), nb::arg("weights").none(),
         nb::arg("periods"), nb::arg("threads"));

@@ -7,7 +7,7 @@ namespace alphamesh {
 // centre a + sum of part[i] arm[i - 1] / (2 determinant).
 template <int K, class R>
 struct Orthosphere {
-  R gram[K][K], lift[K];  // squared arms less the weights of their ends, plus that of a
+  R gram[K][K], lift[K];       // squared arms less the weights of their ends, plus that of a
   R determinant, part[K + 1];  // barycentric coordinates times 2 determinant
 
   Orthosphere(const R (*arm)[3], const R* change);

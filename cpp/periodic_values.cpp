@@ -99,9 +99,9 @@ Measure Measurer::measure(const Layer& layer, std::size_t i) const {
     c[j].row = layer.row[at];
     c[j].place = j;
     for (int k = 0; k < 3; ++k) {
-      c[j].multiple[k] = layer.offset[3 * at + static_cast<std::size_t>(k)] +
-                         box_.shift[3 * static_cast<std::size_t>(c[j].row) +
-                                    static_cast<std::size_t>(k)];
+      c[j].multiple[k] =
+          layer.offset[3 * at + static_cast<std::size_t>(k)] +
+          box_.shift[3 * static_cast<std::size_t>(c[j].row) + static_cast<std::size_t>(k)];
     }
   }
   for (int j = 1; j <= K; ++j) {  // insertion sort
@@ -140,8 +140,8 @@ bool Measurer::measure_plainly<2>(const Corner* c, Measure* out) const {
   const double det = norm(n), radius_sq = 0.25 * ((u2 / det) * (v2 / det) * w2);
   if (!(det * 16.0 >= terms && radius_sq < kLarge && radius_sq > kSmall)) return false;
   out->radius = unscale_ * std::sqrt(std::max(radius_sq, 0.25 * longest));
-  out->attached = (angle[0] < 0.0 ? 1u : 0u) | (angle[1] < 0.0 ? 2u : 0u) |
-                  (angle[2] < 0.0 ? 4u : 0u);
+  out->attached =
+      (angle[0] < 0.0 ? 1u : 0u) | (angle[1] < 0.0 ? 2u : 0u) | (angle[2] < 0.0 ? 4u : 0u);
   return true;
 }
 
@@ -157,8 +157,8 @@ bool Measurer::measure_plainly<3>(const Corner* c, Measure* out) const {
                  a2 * bd.z + b2 * da.z + d2 * ab.z};
   const double most = std::max(a2, std::max(b2, d2));
   const double radius_sq = square(n) * (0.25 / (w * w)), flat = 1.0 / 128.0;
-  if (!(w * w > flat * flat * product_sq && radius_sq > flat * flat * most &&
-        radius_sq < kLarge && radius_sq > kSmall && product_sq < kLarge && product_sq > kSmall)) {
+  if (!(w * w > flat * flat * product_sq && radius_sq > flat * flat * most && radius_sq < kLarge &&
+        radius_sq > kSmall && product_sq < kLarge && product_sq > kSmall)) {
     return false;
   }
   const double side[4] = {2.0 * w * w - (dot(n, bd) + dot(n, da) + dot(n, ab)), dot(n, bd),
@@ -183,10 +183,9 @@ Measure Measurer::measure_carefully(const Corner* c) const {
   }
   const Orthosphere<K, Dd> sphere(arm, changes);
   for (int i = 0; i < K; ++i) {
-    const double weights =
-        box_.weight == nullptr
-            ? 0.0
-            : std::fabs(box_.weight[c[0].row]) + std::fabs(box_.weight[c[i + 1].row]);
+    const double weights = box_.weight == nullptr ? 0.0
+                                                  : std::fabs(box_.weight[c[0].row]) +
+                                                        std::fabs(box_.weight[c[i + 1].row]);
     most = std::max(most, sphere.gram[i][i].h);
     highest = std::max(highest, sphere.gram[i][i].h + weights);
     diagonal *= sphere.gram[i][i].h;

@@ -15,11 +15,11 @@ namespace alphamesh {
 // periods, exactly. All numbers are below 2^100 and multiples of 2^-170, weights below 2^200
 // and multiples of 2^-340.
 struct PeriodicBox {
-  const double* anchor;       // (rows, 3)
-  const std::int8_t* shift;   // (rows, 3)
-  const double* weight;       // (rows,), or null
-  double period[3];           // zero where the box is open
-  int exponent;               // what all was scaled by
+  const double* anchor;      // (rows, 3)
+  const std::int8_t* shift;  // (rows, 3)
+  const double* weight;      // (rows,), or null
+  double period[3];          // zero where the box is open
+  int exponent;              // what all was scaled by
 };
 
 // Radii of each layer, signed roots of power values where there are weights. See

@@ -46,9 +46,7 @@ struct Key<2> {
       : word((row[1] << kRowBits | row[2]) << 2 * kCodeBits | code[1] << kCodeBits | code[2]),
         source(from) {}
   bool same(const Key& o) const { return word == o.word; }
-  bool operator<(const Key& o) const {
-    return word != o.word ? word < o.word : source < o.source;
-  }
+  bool operator<(const Key& o) const { return word != o.word ? word < o.word : source < o.source; }
   void read(std::uint64_t* row, std::uint64_t* code) const {
     row[1] = word >> (kRowBits + 2 * kCodeBits);
     row[2] = word >> 2 * kCodeBits & ((1u << kRowBits) - 1);
@@ -64,9 +62,7 @@ struct Key<1> {
   Key(const std::uint64_t* row, const std::uint64_t* code, std::uint32_t from)
       : word(static_cast<std::uint32_t>(row[1] << kCodeBits | code[1])), source(from) {}
   bool same(const Key& o) const { return word == o.word; }
-  bool operator<(const Key& o) const {
-    return word != o.word ? word < o.word : source < o.source;
-  }
+  bool operator<(const Key& o) const { return word != o.word ? word < o.word : source < o.source; }
   void read(std::uint64_t* row, std::uint64_t* code) const {
     row[1] = word >> kCodeBits, code[1] = word & 31;
   }

@@ -26,7 +26,8 @@ struct Layer {
   std::size_t count = 0;
   Buffer<std::int32_t> row;    // (count, K + 1)
   Buffer<std::int8_t> offset;  // (count, K + 1, 3), in -1 ... 1
-  Buffer<std::int32_t> face;   // (count, K + 1): the face opposite to each vertex, in the layer below
+  Buffer<std::int32_t>
+      face;  // (count, K + 1): the face opposite to each vertex, in the layer below
 };
 
 // The layers from vertices to cells. `cells` are `count` tuples of D + 1 copies, all that

@@ -59,8 +59,8 @@ Magnitude magnitude_of(const double* most, double slack) {
   for (int k = 0; k < D; ++k) m[k] = most[k] + slack;
   if constexpr (D == 1) return {m[0], slack};
   if constexpr (D == 2) return {2.0 * m[0] * m[1], 2.0 * slack * (m[0] + m[1])};
-  if constexpr (D == 3) return {6.0 * m[0] * m[1] * m[2],
-          6.0 * slack * (m[0] * m[1] + m[1] * m[2] + m[2] * m[0])};
+  if constexpr (D == 3)
+    return {6.0 * m[0] * m[1] * m[2], 6.0 * slack * (m[0] * m[1] + m[1] * m[2] + m[2] * m[0])};
 }
 
 double power_of(double unit, int exponent) {

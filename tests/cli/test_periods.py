@@ -86,6 +86,21 @@ def test_radius_by_homology(boxed):
     assert "percolation" in refused(2, "radius", "flat.csv", "--rule", "percolation")
 
 
+def test_boxes_can_be_plotted(boxed):
+    out = facts("plot", "flat.csv", "--periods", "10,10", "-o", "a.png", "-r", "1")
+    assert (out["view"], out["radius"]) == ("complex", 1)
+    assert Path("a.png").stat().st_size > 5000
+    ok("plot", "box.csv", "--periods", "10,10,10", "--view", "barcode", "-o", "b.png")
+    message = refused(
+        1, "plot", "flat.csv", "--periods", "10,10", "--view", "story", "-o", "c.png"
+    )
+    assert "complex, diagram, barcode, betti" in message
+    assert "in space are not drawn" in refused(
+        1, "plot", "box.csv", "--periods", "10,10,10", "-o", "c.png"
+    )
+    assert not Path("c.png").exists()
+
+
 def test_info_of_a_box(boxed):
     out = facts("info", "box.csv", "--periods", "10,10,10")
     assert out["simplicial"]

@@ -29,7 +29,8 @@ def check_periodic(result: PeriodicFiltration) -> None:
     Each facet lies between two cells, on either side of it, whose far vertices lie outside
     of each other's circumspheres, ties included; both are decided exactly. Cells then cover
     the torus the same number of times everywhere, which is once by their volumes. Values
-    are finite and do not decrease from face to coface.
+    are finite and do not decrease from face to coface. Of clouds with fewer dimensions than
+    their points, cells are not looked at.
 
     Parameters
     ----------

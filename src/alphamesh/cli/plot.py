@@ -20,10 +20,11 @@ from alphamesh.cli.building import (
 from alphamesh.cli.command import Command
 from alphamesh.cli.files import FigureFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
+from alphamesh.cli.periods import periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.solids import refuse_solid_options, solid_at, solid_options
 from alphamesh.cli.types import Rule
-from alphamesh.errors import DimensionError
+from alphamesh.errors import DimensionError, PeriodicError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -60,6 +61,9 @@ VIEWS: dict[str, bool] = {
     "betti": True,
 }
 
+# What is there to see in a periodic box.
+_IN_BOX = ("complex", "diagram", "barcode", "betti")
+
 _EXAMPLES = (
     "alphamesh plot shape.png -o story.png",
     "alphamesh plot points.csv --view restricted --radius 0.5 -o cells.svg",
@@ -87,6 +91,7 @@ _EXAMPLES = (
     metavar="N",
     help="Pixels per inch of a PNG.  [default: 160]",
 )
+@periods_option
 @cloud_options
 def command(
     source: str,
@@ -105,9 +110,11 @@ def command(
     check_targets(pictures, source)
     need_matplotlib()
     outputs = Outputs()
+    boxed = options["periods"] is not None
+    view = _view_of_box(view) if boxed else view
     with Steps(quiet=options["quiet"]) as steps:
         job = Job.begin(source, options, steps, space=view is None or view in _IN_SPACE)
-        in_space = job.complex.points.shape[1] == 3
+        in_space = job.complex.points.shape[1] == 3 and not boxed
         view = view or ("overview" if in_space else "story")
         _check_view(view, in_space)
         facts: dict[str, Any] = {"view": view}
@@ -133,6 +140,16 @@ def command(
         ]
         outputs.write(files, steps)
     job.tell(facts, lines, outputs)
+
+
+def _view_of_box(view: str | None) -> str:
+    """Return the view of a periodic box, by default the complex."""
+    if view is not None and view not in _IN_BOX:
+        raise PeriodicError(
+            f"the view {view} is for points without --periods; with them, take one of: "
+            f"{', '.join(_IN_BOX)}"
+        )
+    return view or "complex"
 
 
 def _check_view(view: str, in_space: bool) -> None:

@@ -61,7 +61,7 @@ class PeriodicFiltration(Record):
         vertices. Rows and offsets need not tell simplices apart: numbers do.
     facet_cells : (m, 2) int32
         The one or two cells of each facet, -1 for none, which is there at the border of
-        open directions alone.
+        open directions alone. Empty if the cloud has fewer dimensions than the points.
     crs : pyproj.CRS or None
         The coordinate reference system of the points, if they came with one.
     weights : (n,) float64 or None
