@@ -18,8 +18,7 @@ inline std::uint32_t row_of(std::uint64_t word) { return static_cast<std::uint32
 // Pairs (vertex, edge): the edge joins the component that began with the vertex to an older
 // one. `births` are those of the n points, null if all are born at once; of equally old ones
 // the lower row is older. `edges` is (E, 2) rows of points, `order` is that of the edges.
-Buffer<std::int32_t> pair_components(std::size_t n, const double* births,
-                                     const std::int32_t* edges,
+Buffer<std::int32_t> pair_components(std::size_t n, const double* births, const std::int32_t* edges,
                                      const Buffer<std::uint64_t>& order, const Job& job);
 
 // Pairs (facet, cell): the facet closes off a hollow that the cell fills at last. `cofaces`

@@ -105,7 +105,7 @@ inline bool in_sphere(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e, const La
 
 // To a relative error of about 2^-50.
 double volume_accurate(Point3 a, Point3 b, Point3 c, Point3 d);  // 6 x signed volume
-Vector3<double> normal_accurate(Point3 a, Point3 b, Point3 c);  // (b - a) x (c - a)
+Vector3<double> normal_accurate(Point3 a, Point3 b, Point3 c);   // (b - a) x (c - a)
 // Circumcentre of a positive tetrahedron relative to a, times `w` (6 x volume) times 2.
 Vector3<double> circumcentre_accurate(Point3 a, Point3 b, Point3 c, Point3 d, double* w);
 

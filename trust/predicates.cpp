@@ -160,7 +160,9 @@ Case great_circle() {  // the first three on a great circle of a sphere through 
   const double scale = std::fabs(signed_bits(static_cast<int>(whole(1, 30)))) + 1.0;
   double centre[3];
   for (double& x : centre) x = whole(0, 2) == 0 ? 0.0 : signed_bits(static_cast<int>(whole(3, 44)));
-  auto pick = [&] { return known[static_cast<std::size_t>(whole(0, static_cast<int>(known.size()) - 1))]; };
+  auto pick = [&] {
+    return known[static_cast<std::size_t>(whole(0, static_cast<int>(known.size()) - 1))];
+  };
   const auto u = pick(), w = pick(), apex = pick();
   const std::array<double, 3> minus{-u[0], -u[1], -u[2]};  // u, -u and anything: a great circle
   const std::array<double, 3> on[4] = {u, minus, w, apex};
@@ -191,7 +193,8 @@ using Vector = std::array<Wide, 3>;
 Vector step(const Case& c, int to, int from) {
   Vector v;
   for (int a = 0; a < c.dimension; ++a) {
-    v[static_cast<std::size_t>(a)] = Wide::of(c.of(to, a), kShift) - Wide::of(c.of(from, a), kShift);
+    v[static_cast<std::size_t>(a)] =
+        Wide::of(c.of(to, a), kShift) - Wide::of(c.of(from, a), kShift);
   }
   return v;
 }
@@ -260,8 +263,7 @@ void campaign(const char* name, std::uint64_t cases, Make&& make, Ours&& ours, T
   std::printf("{\"predicate\": \"%s\", \"cases\": %" PRIu64 ", \"wrong\": %" PRIu64
               ", \"zero\": %" PRIu64 ", \"beyond_filter\": %" PRIu64
               ", \"beyond_double_double\": %" PRIu64 "}\n",
-              name, tally.cases, tally.wrong, tally.zero, tally.beyond_filter,
-              tally.beyond_double);
+              name, tally.cases, tally.wrong, tally.zero, tally.beyond_filter, tally.beyond_double);
   std::fflush(stdout);
 }
 
@@ -313,8 +315,8 @@ void space(std::uint64_t n) {
       "in_sphere", n,
       [](int k) { return k == 0 ? scattered(5, 3) : (k == 1 ? flat(5, 3) : round(5, 3)); },
       [](const Case& c, double unit) {
-        return in_sphere_exact(point3(c, 0), point3(c, 1), point3(c, 2), point3(c, 3),
-                               point3(c, 4), Lattice3(unit));
+        return in_sphere_exact(point3(c, 0), point3(c, 1), point3(c, 2), point3(c, 3), point3(c, 4),
+                               Lattice3(unit));
       },
       [](const Case& c) { return in_sphere_of(c, 4).sign(); });
   campaign(
