@@ -27,7 +27,11 @@ from trust.record import coverage_entries, merged, read, table, today, write
 
 __all__ = ["main"]
 
-_QUICK = {"predicates": 200_000, "clouds": 2000, "solids": 500, "files": 1000, "inputs": 500}
+_QUICK = {
+    "predicates": 200_000,
+    **{"clouds": 2000, "solids": 500, "weighted": 500, "weighted_solids": 200},
+    **{"files": 1000, "inputs": 500},
+}
 _MARKERS = ("<!-- figures of record -->", "<!-- end of the figures -->")
 
 
@@ -44,6 +48,8 @@ def _campaigns(words: Sequence[str]) -> int:
         ("predicates", "near-degenerate cases of each predicate"),
         ("clouds", "nasty clouds in the plane"),
         ("solids", "nasty clouds in space"),
+        ("weighted", "nasty clouds with weights in the plane"),
+        ("weighted-solids", "nasty clouds with weights in space"),
         ("files", "damaged files"),
         ("inputs", "what fuzzers have found before, and so many changes of it"),
     ):
@@ -77,6 +83,10 @@ def _results(options: argparse.Namespace) -> Any:
         yield clouds.campaign(options.clouds, 2, **at)
     if options.solids:
         yield clouds.campaign(options.solids, 3, **at)
+    if options.weighted:
+        yield clouds.campaign(options.weighted, 2, weighted=True, **at)
+    if options.weighted_solids:
+        yield clouds.campaign(options.weighted_solids, 3, weighted=True, **at)
     if options.files:
         yield readers.campaign(options.files, **at)
     if options.inputs:

@@ -16,7 +16,7 @@ import alphamesh as am
 from alphamesh import check
 from alphamesh.errors import CoordinateRangeError
 
-__all__ = ["FAMILIES", "campaign", "cloud"]
+__all__ = ["FAMILIES", "campaign", "cloud", "weights"]
 
 Points = np.ndarray[Any, np.dtype[np.float64]]
 Family = Callable[[np.random.Generator, int, int], Points]
@@ -113,11 +113,29 @@ def cloud(seed: int, dimension: int) -> tuple[str, Points]:
     return name, np.ascontiguousarray(points)
 
 
-def _prove(seed: int, dimension: int) -> str:
+def weights(seed: int, points: Points) -> Points:
+    """Return nasty weights for the points of a seed, of the size of their squares."""
+    rng = np.random.default_rng([seed, points.shape[1], 1])
+    n = len(points)
+    size = 4.0 ** np.frexp(np.abs(points).max(initial=0.0))[1]
+    if not 0 < size < np.inf:
+        size = 1.0
+    kinds = (
+        rng.integers(-3, 4, n) * size / 4.0 ** int(rng.integers(0, 4)),
+        rng.normal(size=n) * size * rng.choice([1.0, 0.1, 1e-3, 1e-12]),
+        np.where(rng.random(n) < 0.2, size * rng.normal(), 0.0),
+        (points**2).sum(axis=1),  # lifted, all are in one plane but for rounding
+        rng.random(n) * size / 64 + rng.integers(0, 2) * size,
+    )
+    return np.ascontiguousarray(kinds[int(rng.integers(len(kinds)))])
+
+
+def _prove(seed: int, dimension: int, weighted: bool) -> str:
     """Build and check one cloud; return what came of it."""
     _, points = cloud(seed, dimension)
+    given = weights(seed, points) if weighted else None
     try:
-        cx = am.AlphaComplex(points, threads=1 + seed % 3)
+        cx = am.AlphaComplex(points, weights=given, threads=1 + seed % 3)
     except CoordinateRangeError:
         return "refused"
     check.check_filtration(cx.filtration)
@@ -127,20 +145,29 @@ def _prove(seed: int, dimension: int) -> str:
     return "proved"
 
 
-def _batch(seeds: range, dimension: int) -> tuple[Counter[str], list[str]]:
+def _batch(
+    seeds: range, dimension: int, weighted: bool = False
+) -> tuple[Counter[str], list[str]]:
     tally: Counter[str] = Counter()
     failures = []
     for seed in seeds:
         try:
-            tally[_prove(seed, dimension)] += 1
+            tally[_prove(seed, dimension, weighted)] += 1
         except Exception as error:
             tally["failed"] += 1
-            failures.append(f"dimension {dimension}, seed {seed}: {error!r}")
+            kind = "weighted, " if weighted else ""
+            failures.append(f"{kind}dimension {dimension}, seed {seed}: {error!r}")
     return tally, failures
 
 
-def campaign(
-    count: int, dimension: int, *, first: int = 0, processes: int = 1, size: int = 500
+def campaign(  # noqa: PLR0913 (which clouds, and how they are divided)
+    count: int,
+    dimension: int,
+    *,
+    weighted: bool = False,
+    first: int = 0,
+    processes: int = 1,
+    size: int = 500,
 ) -> dict[str, Any]:
     """Prove many clouds; a process that dies ends the campaign with an error.
 
@@ -155,7 +182,7 @@ def campaign(
     ]
     tally: Counter[str] = Counter()
     failures: list[str] = []
-    work = partial(_batch, dimension=dimension)
+    work = partial(_batch, dimension=dimension, weighted=weighted)
     with multiprocessing.get_context("spawn").Pool(processes) as pool:
         for found, messages in pool.imap_unordered(work, batches):
             tally.update(found)
@@ -163,7 +190,8 @@ def campaign(
             for message in messages:
                 print(message, file=sys.stderr)
     return {
-        "campaign": f"clouds in {dimension}D",
+        "campaign": f"{'weighted ' if weighted else ''}clouds in {dimension}D",
+        "first": first,
         "cases": count,
         "proved": tally["proved"],
         "refused": tally["refused"],

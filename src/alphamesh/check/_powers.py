@@ -199,8 +199,8 @@ def lifted_sides(balls: Balls, rows: Any, axes: tuple[int, ...]) -> KindArray:
     for start in range(0, len(rows), _CHUNK):
         part = rows[start : start + _CHUNK]
         points, weights = balls[0][part], balls[1][part]
-        flat, heights = _raised(points, weights, axes)
-        total, size = _lifted(flat, heights)
+        flat, heights, terms = _raised(points, weights, axes)
+        total, size = _lifted(flat, heights, terms)
         turn, turn_size = _turn(flat)
         sign = np.sign(total) * np.sign(turn) * (-1) ** len(axes)
         sure = (np.abs(total) > 256 * _ULP * size) & (np.abs(turn) > 64 * _ULP * turn_size)
@@ -210,10 +210,14 @@ def lifted_sides(balls: Balls, rows: Any, axes: tuple[int, ...]) -> KindArray:
     return out
 
 
-def _raised(points: Any, weights: Any, axes: tuple[int, ...]) -> tuple[Any, Any]:
-    """Return corners less the last point, in some axes, and how much higher they are."""
+def _raised(points: Any, weights: Any, axes: tuple[int, ...]) -> tuple[Any, Any, Any]:
+    """Return corners less the last point, in some axes, and how much higher they are.
+
+    The height is a difference: what it was made of says what rounding has done to it.
+    """
     away = points[:, :-1] - points[:, -1:]
-    return away[..., list(axes)], (away**2).sum(axis=2) - (weights[:, :-1] - weights[:, -1:])
+    squares, heavier = (away**2).sum(axis=2), weights[:, :-1] - weights[:, -1:]
+    return away[..., list(axes)], squares - heavier, squares + abs(heavier)
 
 
 def _minor(flat: Any, left_out: int) -> tuple[Any, Any]:
@@ -234,27 +238,34 @@ def _determinants(rows: Any) -> tuple[Any, Any]:
     return total, size
 
 
-def _lifted(flat: Any, heights: Any) -> tuple[Any, Any]:
+def _lifted(flat: Any, heights: Any, terms: Any) -> tuple[Any, Any]:
     total = size = 0
     last = flat.shape[2]
     for i in range(flat.shape[1]):
         minor, most = _minor(flat, i)
         total = total + (-1) ** (i + last) * heights[:, i] * minor
-        size = size + abs(heights[:, i]) * most
+        size = size + terms[:, i] * most
     return total, size
 
 
 def _turn(flat: Any) -> tuple[Any, Any]:
-    """Return the orientation of each cell."""
-    total, _ = _determinants(flat[:, 1:] - flat[:, :1])
-    size = sum(_minor(flat, i)[1] for i in range(flat.shape[1]))
+    """Return the orientation of each cell.
+
+    Not from differences of `flat`: where the last point is near to all corners but one, what
+    they round is more than the terms tell.
+    """
+    total = size = 0
+    for i in range(flat.shape[1]):
+        minor, most = _minor(flat, i)
+        total = total + (-1) ** i * minor
+        size = size + most
     return total, size
 
 
 def _exact_side(points: list[Any], weights: list[float], axes: tuple[int, ...]) -> int:
     exact = np.array([[[Fraction(x) for x in p] for p in points]])
-    flat, heights = _raised(exact, np.array([[Fraction(w) for w in weights]]), axes)
-    total, turn = _lifted(flat, heights)[0][0], _turn(flat)[0][0]
+    flat, *heights = _raised(exact, np.array([[Fraction(w) for w in weights]]), axes)
+    total, turn = _lifted(flat, *heights)[0][0], _turn(flat)[0][0]
     odd = (-1) ** len(axes)
     if total == 0:
         # What raising each point alone does to the sum.
