@@ -107,14 +107,16 @@ struct Vertex {
   }
 };
 
-// Of vertices in order; offsets become relative to the first.
+// Of vertices in order, but the one at `skipped`; offsets become relative to the first.
 template <int K>
-Key<K> key_of(const Vertex* v, std::uint32_t source) {
+Key<K> key_of(const Vertex* v, int skipped, std::uint32_t source) {
   std::uint64_t row[4] = {0, 0, 0, 0}, code[4] = {0, 0, 0, 0};
+  const Vertex& first = v[skipped == 0 ? 1 : 0];
   for (int i = 1; i <= K; ++i) {
+    const Vertex& w = v[skipped <= i ? i + 1 : i];
     int relative[3];
-    for (int k = 0; k < 3; ++k) relative[k] = v[i].offset[k] - v[0].offset[k];
-    row[i] = static_cast<std::uint32_t>(v[i].row);
+    for (int k = 0; k < 3; ++k) relative[k] = w.offset[k] - first.offset[k];
+    row[i] = static_cast<std::uint32_t>(w.row);
     code[i] = code_of(relative);
   }
   return {row, code, source};
@@ -208,15 +210,13 @@ Layer faces_of(Layer& layer, std::size_t rows, Job& job) {
     for (int j = 0; j <= K; ++j) buckets.count(layer.row[i * (K + 1) + (j == 0 ? 1 : 0)]);
   }
   buckets.allot();
-  Vertex v[K + 1], face[K];
+  Vertex v[K + 1];
   for (std::size_t i = 0; i < layer.count; ++i) {
     if ((i & 0xfff) == 0) job.poll();
     vertices_of<K>(layer, i, v);
     for (int j = 0; j <= K; ++j) {
-      std::copy(v, v + j, face);
-      std::copy(v + j + 1, v + K + 1, face + j);
       const auto source = static_cast<std::uint32_t>(i * (K + 1) + static_cast<std::size_t>(j));
-      buckets.put(face[0].row, key_of<K - 1>(face, source));
+      buckets.put(v[j == 0 ? 1 : 0].row, key_of<K - 1>(v, j, source));
     }
   }
   layer.face = Buffer<Id>(sources);
@@ -240,7 +240,7 @@ Layer canonical_cells(const Copies& copies, const Id* cells, std::size_t count, 
       }
       std::sort(v, v + D + 1);
       row[c] = static_cast<std::size_t>(v[0].copy) < copies.base ? v[0].row : -1;
-      if (row[c] >= 0) key[c] = key_of<D>(v, 0);
+      if (row[c] >= 0) key[c] = key_of<D>(v, D + 1, 0);
     }
   });
   Buckets<D> buckets(copies.rows);

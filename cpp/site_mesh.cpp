@@ -132,7 +132,9 @@ template <int D>
 void SiteMesh<D>::insert_all(Job& job) {
   const std::vector<Id> order = along_curve(sites_, job);
   const Rounds rounds = plan_rounds(order.size());
-  cells_.reserve((D == 2 ? 3 : 8) * order.size() + 64);
+  const std::size_t ample = (D == 2 ? 3 : 8) * order.size() + 64;
+  cells_.reserve(ample);
+  stamp_.reserve(ample);
   std::size_t done = 0;
   while (done < order.size()) {
     if ((done & 0x3ff) == 0) job.poll();
