@@ -109,17 +109,17 @@ def test_radii_are_chosen_by_homology():
     ring = np.linspace(0, 1, 40, endpoint=False)
     points = np.column_stack((ring, np.full(40, 0.5)))
     made = am.AlphaComplex(points, periods=(1, 1))
-    chosen = made.choose_radius()
-    assert chosen.rule == "longest-interval"
+    chosen = made.choose_radius("longest-interval")
     assert chosen.betti == (1, 1, 0)
     assert chosen.interval[0] == pytest.approx(1 / 80)
-    assert made.at().radius == chosen.radius
     percolates = made.choose_radius("percolation")
     assert percolates.radius == pytest.approx(1 / 80)
     assert percolates.betti[1] == 1
-    connected = made.choose_radius("connected")
+    connected = made.choose_radius()
+    assert connected.rule == "connected"
     assert connected.radius == pytest.approx(1 / 80)
     assert connected.betti[0] == 1
+    assert made.at().radius == connected.radius
 
 
 def test_rules_without_meaning_are_refused():

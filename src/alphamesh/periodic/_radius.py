@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["PERIODIC_RULES", "choose_periodic_radius"]
 
-PERIODIC_RULES = ("longest-interval", "connected", "percolation")
+PERIODIC_RULES = ("connected", "percolation", "longest-interval")
 
 
 def choose_periodic_radius(
@@ -27,10 +27,10 @@ def choose_periodic_radius(
     ----------
     filtration : PeriodicFiltration
     rule : str, optional
-        ``"longest-interval"``, the default: the middle of the widest range of radii over
-        which no Betti number changes. ``"connected"``: the least radius at which all is
-        one piece. ``"percolation"``: the least radius at which a chain of points runs
-        around the box.
+        ``"connected"``, the default: the least radius at which all is one piece.
+        ``"percolation"``: the least radius at which a chain of points runs around the box.
+        ``"longest-interval"``: the middle of the widest range of radii over which no Betti
+        number changes.
     **options
         There are none.
 
