@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import alphamesh as am
+from alphamesh.errors import InvalidResultError
 from test_periodic import boxed, grid
 
 
@@ -99,3 +100,12 @@ def test_a_box_with_ample_room_changes_nothing_near(d):
         assert own.keys() == expected.keys()
         for key, radius in own.items():
             assert radius == pytest.approx(expected[key], rel=1e-12)
+
+
+def test_one_check_is_for_all_filtrations():
+    filtration = am.AlphaComplex([[0.1, 0.2], [0.4, 0.9]], periods=(1, 1)).filtration
+    am.check.check_filtration(filtration)
+    values = {name: getattr(filtration, name) for name in filtration.__dataclass_fields__}
+    radii = tuple(-part - 1 for part in filtration.radii)
+    with pytest.raises(InvalidResultError, match="below"):
+        am.check.check_filtration(type(filtration)(**{**values, "radii": radii}))

@@ -122,6 +122,15 @@ def test_radii_are_chosen_by_homology():
     assert made.at().radius == connected.radius
 
 
+def test_the_longest_interval_comes_after_points_have_met():
+    made = am.AlphaComplex(np.random.default_rng(7).random((40, 3)), periods=(1, 1, 1))
+    chosen = made.choose_radius("longest-interval")
+    assert chosen.radius > made.radii[1].min()
+    low, high = chosen.interval
+    widths = np.diff(made.persistence().betti_curve().radii)[1:]
+    assert high - low == pytest.approx(widths.max(), rel=1e-12)
+
+
 def test_rules_without_meaning_are_refused():
     made = am.AlphaComplex([[0.1, 0.2]], periods=(1, 1))
     with pytest.raises(PeriodicError, match="without periods"):

@@ -104,7 +104,7 @@ def test_boxes_can_be_plotted(boxed):
 def test_info_of_a_box(boxed):
     out = facts("info", "box.csv", "--periods", "10,10,10")
     assert out["simplicial"]
-    assert out["rule"] == "longest-interval"
+    assert out["rule"] == "connected"
     assert "meet themselves" in ok("info", "box.csv", "--periods", "0.5,10,10")
     assert "files of points" in refused(2, "info", "demo:cheese", "--periods", "1,1")
 

@@ -9,11 +9,13 @@ import numpy as np
 
 from alphamesh._kernels import dot2
 from alphamesh.check._mesh import Mesh, check_edges, check_representative, proved_mesh
+from alphamesh.check._periodic import check_periodic
 from alphamesh.check._space_filtration import check_filtration3d
 from alphamesh.check._tools import LongArray, check_radii, check_table, require, signs
 from alphamesh.check._weighted import check_power_values, check_rows, standing_rows
 from alphamesh.errors import InvalidResultError
 from alphamesh.filtration3d import Filtration3D
+from alphamesh.periodic import PeriodicFiltration
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
@@ -28,7 +30,7 @@ _ULP = 2.0**-52
 _NAMES = ("vertex radii", "edge radii", "triangle radii")
 
 
-def check_filtration(result: AnyFiltration) -> None:
+def check_filtration(result: AnyFiltration | PeriodicFiltration) -> None:
     """Prove that `result` holds every simplex of its points with the right value.
 
     Combinatorial claims (the triangulation, which edges are Gabriel, which values are
@@ -39,7 +41,8 @@ def check_filtration(result: AnyFiltration) -> None:
 
     Parameters
     ----------
-    result : Filtration or Filtration3D
+    result : Filtration, Filtration3D or PeriodicFiltration
+        The last is proved by :func:`check_periodic`.
 
     Raises
     ------
@@ -47,6 +50,9 @@ def check_filtration(result: AnyFiltration) -> None:
         If an invariant fails; the message and ``rows`` name the rows of the array that
         breaks it.
     """
+    if isinstance(result, PeriodicFiltration):
+        check_periodic(result)
+        return
     if isinstance(result, Filtration3D):
         check_filtration3d(result)
         return

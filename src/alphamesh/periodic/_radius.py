@@ -30,7 +30,7 @@ def choose_periodic_radius(
         ``"connected"``, the default: the least radius at which all is one piece.
         ``"percolation"``: the least radius at which a chain of points runs around the box.
         ``"longest-interval"``: the middle of the widest range of radii over which no Betti
-        number changes.
+        number changes, from the first change on.
     **options
         There are none.
 
@@ -69,14 +69,16 @@ def choose_periodic_radius(
 
 def _longest_interval(filtration: PeriodicFiltration) -> RadiusChoice:
     radii, numbers = periodic_persistence(filtration).betti_curve()
+    # Before the first change there are points alone.
+    first = 1 if len(radii) > 2 else 0
     # Halves do not overflow.
-    widest = int(np.argmax(radii[1:] / 2 - radii[:-1] / 2))
+    widest = first + int(np.argmax((radii[1:] / 2 - radii[:-1] / 2)[first:]))
     low, high = radii[widest : widest + 2].tolist()
     betti = tuple(numbers[widest].tolist())
     reason = (
         f"From {low:.4g} to {high:.4g} the Betti numbers stay {', '.join(map(str, betti))}: no "
-        "other range of radii without a change is so wide, before the box is full. This is "
-        "its middle."
+        "other range of radii without a change is so wide, from the first change on until the "
+        "box is full. This is its middle."
     )
     return RadiusChoice(
         low / 2 + high / 2, "longest-interval", reason, interval=(low, high), betti=betti

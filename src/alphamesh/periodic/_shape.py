@@ -155,25 +155,25 @@ class PeriodicShape(Record):
     @property
     def area(self) -> float:
         """The area of the triangles in the plane."""
-        self._need_plane("volume")
+        self._need_plane("the area", "volume")
         return self._content
 
     @property
     def perimeter(self) -> float:
         """The length of the border between triangles and what is left out."""
-        self._need_plane("surface_area")
+        self._need_plane("the perimeter", "surface_area")
         return self._border
 
     @property
     def volume(self) -> float:
         """The volume of the tetrahedra in space."""
-        self._need_space("area")
+        self._need_space("the volume", "area")
         return self._content
 
     @property
     def surface_area(self) -> float:
         """The area of the border between tetrahedra and what is left out."""
-        self._need_space("perimeter")
+        self._need_space("the surface area", "perimeter")
         return self._border
 
     @property
@@ -184,22 +184,22 @@ class PeriodicShape(Record):
     @property
     def boundary_edges(self) -> IntArray:
         """Numbers of the edges at the border in the plane, ``(k,)`` int32."""
-        self._need_plane("boundary_triangles")
+        self._need_plane("the border of edges", "boundary_triangles")
         return self._facets
 
     @property
     def boundary_triangles(self) -> IntArray:
         """Numbers of the triangles at the border in space, ``(k,)`` int32."""
-        self._need_space("boundary_edges")
+        self._need_space("the border of triangles", "boundary_edges")
         return self._facets
 
-    def _need_plane(self, other: str) -> None:
+    def _need_plane(self, what: str, other: str) -> None:
         if self._d == 3:
-            raise DimensionError(f"that is there in the plane alone; in space, see {other}")
+            raise DimensionError(f"{what} is there in the plane alone; in space, see {other}")
 
-    def _need_space(self, other: str) -> None:
+    def _need_space(self, what: str, other: str) -> None:
         if self._d == 2:
-            raise DimensionError(f"that is there in space alone; in the plane, see {other}")
+            raise DimensionError(f"{what} is there in space alone; in the plane, see {other}")
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Drawing:
         """Draw the complex, the box and what crosses its border; in the plane alone.
