@@ -174,3 +174,15 @@ class TestReading:
         mesh = read_mesh(tmp_path / "groups.obj")
         assert mesh.cells["triangle"].tolist() == [[0, 1, 2], [0, 2, 3]]
         assert mesh.cell_data == {}
+
+
+def test_gmsh_tags_far_beyond_the_file_are_refused(tmp_path: Path) -> None:
+    """Found by fuzzing: meshio makes a table of all tags up to the largest."""
+    path = tmp_path / "tags.msh"
+    write_mesh(TRIANGLES, path)
+    data = path.read_bytes()
+    first = data.index(b"$Nodes\n") + 7 + 32 + 20
+    assert data[first : first + 8] == (1).to_bytes(8, "little")
+    path.write_bytes(data[:first] + (10**12).to_bytes(8, "little") + data[first + 8 :])
+    with pytest.raises(FileReadError, match="tag 1,000,000,000,000"):
+        read_mesh(path)

@@ -12,7 +12,6 @@
 # those that assert nothing about the code: benchmarks, and what examples and documents print.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-root=$PWD
 python=${PYTHON:-python3}
 work=${WORK:-$(mktemp -d)}
 [ -n "${WORK:-}" ] || trap 'rm -rf "$work"' EXIT
@@ -25,10 +24,10 @@ if ((${#tests[@]} == 0)); then
 fi
 if [ ! -d "$work/src" ]; then
   mkdir -p "$work"
-  cp -r src "$work/src"
+  cp -r src cpp CMakeLists.txt "$work"
   rm -f "$work"/src/alphamesh/_kernels/_core*.so
   cmake_folder=$("$python" -m nanobind --cmake_dir)
-  cmake -S . -B "$work/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS="--coverage" \
+  cmake -S "$work" -B "$work/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS="--coverage" \
     -DPython_EXECUTABLE="$(command -v "$python")" -Dnanobind_DIR="$cmake_folder" > "$work/log"
   cmake --build "$work/build" --target _core -j "$(nproc)" >> "$work/log" 2>&1 || {
     tail -n 40 "$work/log" >&2
@@ -48,8 +47,8 @@ counted report --skip-covered --sort=cover --show-missing > "$work/python.txt"
 sed "s|$work/src/||" "$work/python.txt" | cut -c 1-150
 printf '\n=== C++\n\n'
 # Threads race for the counters: a count may be off, even negative, but for what is zero.
-"$python" -m gcovr --root "$root" --object-directory "$work/build" --filter "$root/cpp/" \
-  --exclude-throw-branches --gcov-ignore-parse-errors=all --sort uncovered-percent \
+"$python" -m gcovr --root "$work" --object-directory "$work/build" --filter "$work/cpp/" \
+  --exclude-throw-branches --gcov-ignore-parse-errors=all --gcov-ignore-errors=all --sort uncovered-percent \
   --json-summary "$work/cpp.json" --txt "$work/cpp.txt"
 cut -c 1-150 "$work/cpp.txt"
 if [ -n "${RECORD:-}" ]; then

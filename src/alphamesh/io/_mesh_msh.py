@@ -6,25 +6,75 @@ Gmsh (version 4.1: entities are missing) or by meshio itself (version 2.2: numbe
 
 from __future__ import annotations
 
+import re
+import struct
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from alphamesh.errors import FileReadError
 from alphamesh.io._mesh import CELL_NAMES, Mesh, points_in_space, refuse_large
+from alphamesh.io._mesh_meshio import read_with_meshio
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
-__all__ = ["write_msh"]
+__all__ = ["read_msh", "write_msh"]
+
+_NODES = re.compile(rb"^\$Nodes\s*?\n", re.MULTILINE)
+# A number for each tag up to the largest is a table that the file can answer for.
+_SPREAD = 16
 
 # Gmsh's number and dimension of each kind of cell. Each kind is one entity of Gmsh, and one
 # physical group; both have the tag 1, as tags are counted apart in every dimension.
 _TYPES = {"vertex": 15, "line": 1, "triangle": 2, "tetra": 4}
 _DIMENSIONS = {"vertex": 0, "line": 1, "triangle": 2, "tetra": 3}
 _TAG = 1
+
+
+def read_msh(path: Path) -> Mesh:
+    """Read a file of Gmsh with meshio.
+
+    Raises
+    ------
+    FileReadError
+        If the tag of a point is far beyond the size of the file: meshio makes a table of all
+        tags up to the largest.
+    """
+    content = path.read_bytes()
+    largest = _largest_tag(content)
+    if largest > max(10_000, _SPREAD * len(content)):
+        raise FileReadError(f"it is damaged: a point has the tag {largest:,}")
+    return read_with_meshio(path, "gmsh")
+
+
+def _largest_tag(content: bytes) -> int:
+    """Return the largest tag of a point in a binary file of version 4.1, else 0."""
+    form = content.partition(b"\n")[2][:20].split()
+    start = _NODES.search(content)
+    if form[:3] != [b"4.1", b"1", b"8"] or start is None:
+        return 0
+    at, largest = start.end(), 0
+    (blocks,) = _words(content, at, "<Q")
+    at += 32
+    for _ in range(blocks):
+        if at + 20 > len(content):
+            break
+        *_, count = _words(content, at, "<iiiQ")
+        at += 20
+        whole = content[at : at + 8 * count]
+        tags = np.frombuffer(whole[: len(whole) // 8 * 8], dtype="<u8")
+        largest = max(largest, int(tags.max(initial=0)))
+        at += 32 * count
+    return largest
+
+
+def _words(content: bytes, at: int, form: str) -> tuple[int, ...]:
+    size = struct.calcsize(form)
+    return struct.unpack(form, content[at : at + size].ljust(size, b"\0"))
 
 
 def write_msh(mesh: Mesh, path: Path) -> None:

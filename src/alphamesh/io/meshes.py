@@ -19,7 +19,7 @@ from alphamesh.errors import (
 from alphamesh.io._atomic import atomic_path
 from alphamesh.io._mesh import CELL_CORNERS, DoesNotFit, Mesh, compact, with_input_rows
 from alphamesh.io._mesh_meshio import read_with_meshio, write_vtk, write_vtu
-from alphamesh.io._mesh_msh import write_msh
+from alphamesh.io._mesh_msh import read_msh, write_msh
 from alphamesh.io._mesh_plain import (
     read_npz,
     stl_corners,
@@ -100,7 +100,7 @@ MESH_FORMATS: dict[str, MeshFormat] = {
         "MSH",
         "Gmsh 4.1; binary, all numbers as float64; each kind of cell is a physical group",
         write_msh,
-        _meshio_reader("gmsh"),
+        read_msh,
     ),
     ".npz": MeshFormat(
         "NPZ",
