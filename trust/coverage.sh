@@ -47,7 +47,7 @@ counted report --skip-covered --sort=cover --show-missing > "$work/python.txt"
 sed "s|$work/src/||" "$work/python.txt" | cut -c 1-150
 printf '\n=== C++\n\n'
 # Threads race for the counters: a count may be off, even negative, but for what is zero.
-"$python" -m gcovr --root "$work" --object-directory "$work/build" --filter "$work/cpp/" \
+"$python" -m gcovr --root "$work" --merge-lines --object-directory "$work/build" --filter "$work/cpp/" \
   --exclude-throw-branches --gcov-ignore-parse-errors=all --gcov-ignore-errors=all --sort uncovered-percent \
   --json-summary "$work/cpp.json" --txt "$work/cpp.txt"
 cut -c 1-150 "$work/cpp.txt"
