@@ -29,7 +29,7 @@ __all__ = ["main"]
 
 _QUICK = {
     "predicates": 200_000,
-    **{"clouds": 2000, "solids": 500, "weighted": 500, "weighted_solids": 200},
+    **{"clouds": 2000, "solids": 500, "weighted": 300, "weighted_solids": 100},
     **{"files": 1000, "inputs": 500},
 }
 _MARKERS = ("<!-- figures of record -->", "<!-- end of the figures -->")
