@@ -70,10 +70,14 @@ void PowerTetrahedra::evaluate(const Lattice3& lattice) {
     const double product = la * lb * lc;
     const double terms = (a2 + std::fabs(wa)) * (lb * lc) + (b2 + std::fabs(wb)) * (lc * la) +
                          (c2 + std::fabs(wc)) * (la * lb);
+    // The centre is wrong by `off` units if w is known to one part in a hundred; where it comes
+    // out near the origin by chance, the square of that counts.
     const double distance = std::sqrt(centre_sq);
-    const double error = distance * (16.0 * terms + 20.0 * distance * product) / std::fabs(w) +
-                         8.0 * (centre_sq + std::fabs(weight));
+    const double off = (8.0 * terms + 10.0 * distance * product) / std::fabs(w);
+    const double error =
+        off * (2.0 * distance + kEps * off) + 8.0 * (centre_sq + std::fabs(weight));
     double good = error <= kEnough * std::fabs(power) ? 1.0 : 0.0;
+    good = 1024.0 * kEps * product <= std::fabs(w) ? good : 0.0;
     good = centre_sq < kLarge ? good : 0.0;
     good = std::fabs(power) > kSmall ? good : 0.0;
     bad_radius_[i] = 1.0 - good;
@@ -179,10 +183,13 @@ void PowerTriangles3::evaluate() {
     // g is wrong by 9 units of `terms`, n by 5 of |u||v|.
     const double lu = std::sqrt(u2), lv = std::sqrt(v2);
     const double terms = (u2 + std::fabs(wu)) * lv + (v2 + std::fabs(wv)) * lu;
+    const double area = std::sqrt(area_sq), distance = std::sqrt(centre_sq);
+    // As for tetrahedra.
+    const double off = (4.7 * terms + 5.2 * distance * (lu * lv)) / area;
     const double error =
-        centre_sq * (18.0 * terms / std::sqrt(g2) + 10.0 * (lu * lv) / std::sqrt(area_sq)) +
-        12.0 * (centre_sq + std::fabs(weight));
+        off * (2.0 * distance + kEps * off) + 12.0 * (centre_sq + std::fabs(weight));
     double sure = error <= kEnough * std::fabs(power) ? 1.0 : 0.0;
+    sure = 1024.0 * kEps * (lu * lv) <= area ? sure : 0.0;
     sure = centre_sq < kLarge ? sure : 0.0;
     sure = std::fabs(power) > kSmall ? sure : 0.0;
     doubtful_[i] = 1.0 - sure;

@@ -186,3 +186,19 @@ def test_gmsh_tags_far_beyond_the_file_are_refused(tmp_path: Path) -> None:
     path.write_bytes(data[:first] + (10**12).to_bytes(8, "little") + data[first + 8 :])
     with pytest.raises(FileReadError, match="tag 1,000,000,000,000"):
         read_mesh(path)
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"OFF", "no numbers of vertices, faces and edges"),
+        (b"OFF\n# nothing\n\n", "no numbers of vertices, faces and edges"),
+        (b"OFF\n3 1\n", "no numbers of vertices, faces and edges"),
+        (b"OFF\n3 1000000000000 0\n0 0 0\n", "promises 3 vertices and 1,000,000,000,000"),
+    ],
+)
+def test_off_files_that_are_cut_off(tmp_path, content, said):
+    path = tmp_path / "a.off"
+    path.write_bytes(content)
+    with pytest.raises(FileReadError, match=said):
+        read_mesh(path)

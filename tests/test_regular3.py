@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from itertools import combinations, product
+from itertools import combinations, permutations, product
 
 import numpy as np
 import pytest
@@ -282,3 +282,42 @@ def test_values_are_good_to_the_last_digits_however_small(kind):
         assert root_error(radius, power) < 5e-13, s
         checked += 1
     assert checked > 100
+
+
+# A volume that rounding hides, and an orthocentre that comes out at the first vertex by chance.
+NEARLY_FLAT = (
+    (
+        [
+            [0.6944314349359383, 0.029913308585573832, 0.9776347602249704],
+            [0.6944314349359385, 0.02991330858557384, 0.9776347602249704],
+            [0.5557598046184459, 0.7604032995030882, 0.8544854575534176],
+            [0.6944314349359387, 0.02991330858557384, 0.9776347602249704],
+        ],
+        [1.4388995482578575, 1.4388995482578577, 1.6172275354949899, 1.4388995482578582],
+    ),
+    (
+        [
+            [0.5596095943066114, 0.13744768394333967, 0.36586601180675027],
+            [0.5854708076258571, -1.1773785270688748, -0.6401188757951685],
+            [0.6700290823786391, -0.8887122179007592, -0.377421915314748],
+            [-2.612054758824922, 2.0277507179939067, 0.358921191823474],
+        ],
+        [0.4659127024567755, 2.1387484377342165, 1.3811956796391005, 11.063427459364709],
+    ),
+)
+
+
+@pytest.mark.parametrize(("points", "weights"), NEARLY_FLAT)
+def test_nearly_flat_tetrahedra_whatever_their_first_vertex(points, weights):
+    places = [[Fraction(v) for v in p] for p in points]
+    _, power = orthocentre(places, [Fraction(w) for w in weights])
+    for order in permutations(range(4)):
+        found = regular3(np.array(points)[list(order)], np.array(weights)[list(order)])
+        assert root_error(found["tetrahedron_radii"][0], power) < 5e-13
+
+
+def test_campaigns_of_weighted_clouds():
+    from trust.clouds import _prove
+
+    for seed in (272, 295, 316, 393, 492, 691, 716, 767, 865, 906, 933):
+        assert _prove(seed, 3, weighted=True) == "proved"

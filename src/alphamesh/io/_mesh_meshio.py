@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from alphamesh.io._mesh import Numbers
 
-__all__ = ["as_meshio", "read_with_meshio", "write_vtk", "write_vtu"]
+__all__ = ["as_meshio", "read_off", "read_with_meshio", "write_vtk", "write_vtu"]
 
 
 def write_vtu(mesh: Mesh, path: Path) -> None:
@@ -79,6 +79,30 @@ def read_with_meshio(path: Path, module: str) -> Mesh:
             for name, by_kind in cell_data.items()
         },
     )
+
+
+def read_off(path: Path) -> Mesh:
+    """Read an OFF file of triangles.
+
+    Raises
+    ------
+    FileReadError
+        If its counts are missing, or larger than the file; meshio would look for them for
+        ever, or fill the memory.
+    """
+    with path.open("rb") as file:
+        file.readline()
+        lines = (line.strip() for line in file)
+        counts = next((line for line in lines if line and not line.startswith(b"#")), b"")
+    numbers = counts.split()
+    if len(numbers) != 3 or not all(number.isdigit() for number in numbers):
+        raise FileReadError("it is cut off: there are no numbers of vertices, faces and edges")
+    vertices, faces = int(numbers[0]), int(numbers[1])
+    if vertices + faces > path.stat().st_size:
+        raise FileReadError(
+            f"it is cut off: its header promises {vertices:,} vertices and {faces:,} faces"
+        )
+    return read_with_meshio(path, "off")
 
 
 def _is_plain(name: str, blocks: list[Any]) -> bool:

@@ -18,7 +18,7 @@ from alphamesh.errors import (
 )
 from alphamesh.io._atomic import atomic_path
 from alphamesh.io._mesh import CELL_CORNERS, DoesNotFit, Mesh, compact, with_input_rows
-from alphamesh.io._mesh_meshio import read_with_meshio, write_vtk, write_vtu
+from alphamesh.io._mesh_meshio import read_off, read_with_meshio, write_vtk, write_vtu
 from alphamesh.io._mesh_msh import read_msh, write_msh
 from alphamesh.io._mesh_plain import (
     read_npz,
@@ -132,7 +132,7 @@ MESH_FORMATS: dict[str, MeshFormat] = {
         "OFF",
         "text; isolated vertices are vertices that no face uses",
         write_off,
-        _meshio_reader("off"),
+        read_off,
         cells=("vertex", "triangle"),
         point_data=False,
         cell_data=False,
