@@ -274,6 +274,16 @@ def test_radius_from_sampled_tiles(tmp_path):
     assert f"{choice.points:,} points" in choice.reason
 
 
+def test_a_header_that_promises_too_much_is_refused_at_once(tmp_path):
+    path = tmp_path / "cloud.las"
+    write_las(path, np.random.default_rng(3).random((50, 3)))
+    data = bytearray(path.read_bytes())
+    data[100:104] = (2**32 - 1).to_bytes(4, "little")  # variable length records
+    path.write_bytes(data)
+    with pytest.raises(FileReadError, match="promises 4294967295 records"):
+        tiles.dataset(path)
+
+
 def test_a_run_in_space(tmp_path):
     points = np.random.default_rng(3).random((3000, 3)) * 14
     write_las(tmp_path / "cloud.laz", points)

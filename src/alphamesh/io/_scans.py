@@ -15,7 +15,7 @@ from alphamesh.io._sources import Source
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
 
-__all__ = ["las_table", "pcd_table", "read_las", "read_pcd"]
+__all__ = ["las_table", "pcd_table", "read_las", "read_pcd", "refuse_counts"]
 
 # Point formats from here on are those of LAZ.
 _PACKED = 64
@@ -54,7 +54,7 @@ def las_table(source: Source) -> tuple[list[str], Any]:
     with source.open() as file:
         _refuse_other(source, file.read(4), b"LASF", "LAS")
         file.seek(0)
-        _refuse_counts(source, file)
+        refuse_counts(source, file)
         file.seek(0)
         try:
             points: Any = laspy.read(file, closefd=False)
@@ -121,7 +121,7 @@ def _refuse_other(source: Source, start: bytes, wanted: bytes, name: str) -> Non
         raise source.failure(f"is not a {name} file: it does not begin with {wanted.decode()}")
 
 
-def _refuse_counts(source: Source, file: BinaryIO) -> None:
+def refuse_counts(source: Source, file: BinaryIO) -> None:
     """Refuse a LAS header that promises more records than the file has room for.
 
     laspy believes it: millions of records of nothing take minutes and all memory. Offsets

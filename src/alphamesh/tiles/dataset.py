@@ -13,6 +13,7 @@ import numpy as np
 
 from alphamesh.errors import FileReadError, MissingLibraryError, NonFiniteError, rows_text
 from alphamesh.io._columns import Columns, Wanted, choose_columns, wanted_columns
+from alphamesh.io._scans import refuse_counts
 from alphamesh.io._sources import open_source
 
 if TYPE_CHECKING:
@@ -288,7 +289,10 @@ def _las(path: str | Path) -> Any:
 
 
 def _las_parts(path: Path, wanted: Wanted, size: int) -> Parts:
-    chosen = choose_columns(open_source(path), wanted, _AXES, len(_AXES))
+    source = open_source(path)
+    with source.open() as head:
+        refuse_counts(source, head)
+    chosen = choose_columns(source, wanted, _AXES, len(_AXES))
     with _las(path) as file:
         return _slices(int(file.header.point_count), size, chosen)
 
