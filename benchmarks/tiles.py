@@ -73,7 +73,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     add("--tile-points", type=float, help="by default 500,000 in the plane, 1,000,000 in space")
     add("--threads", type=int, help="of this process; by default one for each core")
     add("--processes", type=int, help="so many processes of Dask instead of threads")
-    add("--folder", help="where to work; gigabytes for large clouds")
+    add("--folder", type=Path, help="where to work; gigabytes for large clouds")
     add("--costs", action="store_true", help="measure the steps of one tile, on one core")
     add("--tiny", action="store_true", help="60,000 points, in seconds")
     add("--write-docs", type=Path, metavar="DIR", help="put the figures into tiles.md in DIR")
@@ -82,6 +82,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     count, tile_points = int(options.points), int(options.tile_points or kind.tile_points)
     if options.tiny:
         count, tile_points = 60_000, min(tile_points, 20_000)
+    if options.folder is not None:
+        options.folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=options.folder) as name:
         folder = Path(name)
         same = _compare(folder, kind, min(count, _COMPARED))
