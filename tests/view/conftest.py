@@ -1,0 +1,56 @@
+"""Pages to be visited, in the plane and in space, and the browser for it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import alphamesh as am
+from browser import chromium
+from view_page import Visit
+
+
+@pytest.fixture(scope="package")
+def eight():
+    return am.AlphaComplex(am.demo_cloud("eight", 400, seed=1))
+
+
+@pytest.fixture(scope="package")
+def file(eight, tmp_path_factory):
+    path = tmp_path_factory.mktemp("view") / "page.html"
+    eight.view(path, title="An eight")
+    return path
+
+
+@pytest.fixture(scope="package")
+def browser():
+    with chromium() as started:
+        yield started
+
+
+@pytest.fixture
+def visit(browser, file):
+    with Visit(browser, file) as opened:
+        yield opened
+
+
+@pytest.fixture(scope="package")
+def hollow():
+    """A ball with a void, and a few points far from it."""
+    rng = np.random.default_rng(7)
+    points = rng.normal(size=(500, 3))
+    points *= (rng.uniform(0.55, 1, 500) / np.linalg.norm(points, axis=1))[:, None]
+    return am.AlphaComplex(np.concatenate((points, rng.uniform(1.6, 1.8, (4, 3)))))
+
+
+@pytest.fixture(scope="package")
+def solid(hollow, tmp_path_factory):
+    path = tmp_path_factory.mktemp("view") / "solid.html"
+    hollow.view(path, 0.3, title="A hollow ball")
+    return path
+
+
+@pytest.fixture
+def room(browser, solid):
+    with Visit(browser, solid) as opened:
+        yield opened
