@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import alphamesh as am
+from alphamesh.io.meshes import read_mesh
 from cli_tools import facts, ok, refused
 
 
@@ -113,4 +114,29 @@ def test_wrong_boxes_are_refused(boxed):
     for text in ("10,x", "0,10", ",", "-1,1", "nan,1"):
         assert "10,,10" in refused(2, "betti", "flat.csv", "--periods", text)
     assert "need 3 periods" in refused(2, "betti", "box.csv", "--periods", "10,10")
-    assert "no such option" in refused(2, "mesh", "box.csv", "--periods", "1,1,1").lower()
+    assert "no such option" in refused(2, "polygons", "flat.csv", "--periods", "1,1").lower()
+
+
+def test_meshes_of_boxes(boxed):
+    out = facts("mesh", "box.csv", "--periods", "10,10,10", "-r", "1.5", "-o", "a.npz")
+    shape = am.AlphaComplex(boxed, periods=(10, 10, 10)).at(1.5)
+    assert out["volume"] == shape.volume
+    assert out["tetrahedra"] == len(shape.tetrahedra)
+    assert len(read_mesh("a.npz").cells["tetra"]) == len(shape.tetrahedra)
+    text = ok("mesh", "flat.csv", "--periods", "10,10", "-r", "0.9", "--plot", "a.png")
+    flat = am.AlphaComplex(boxed[:, :2], periods=(10, 10)).at(0.9)
+    assert f"{flat.filled_share:.1%} of the box" in text
+    assert Path("a.png").stat().st_size > 5000
+    assert "of the box" not in ok("mesh", "flat.csv", "--periods", "10,", "-r", "0.9")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--keep-columns"], "--keep-columns does not go with --periods"),
+        (["--largest", "1"], "--largest is for solids in space"),
+        (["--surface"], "has no meaning for points in a periodic box"),
+    ],
+)
+def test_meshes_of_boxes_leave_nothing_out_in_silence(boxed, arguments, said):
+    assert said in refused(2, "mesh", "flat.csv", "--periods", "10,10", *arguments)

@@ -144,6 +144,11 @@ class Job:
             )
 
     @property
+    def periodic(self) -> bool:
+        """Whether the points lie in a periodic box."""
+        return getattr(self.complex, "periods", None) is not None
+
+    @property
     def duplicates(self) -> int:
         """Points that repeat an earlier one."""
         return len(self.complex.points) - len(self.complex.simplices[0]) - self.hidden

@@ -23,6 +23,7 @@ from alphamesh.cli.building import (
 from alphamesh.cli.command import Command, setting
 from alphamesh.cli.files import MeshFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
+from alphamesh.cli.periods import box_lines, box_sizes, periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.solids import (
     Solid,
@@ -49,6 +50,7 @@ _EXAMPLES = (
     "alphamesh mesh points.csv --radius topology:holes=2 -o mesh.obj",
     "alphamesh mesh scan.ply -o surface.stl --plot surface.png",
     "alphamesh mesh cells.xyz -r 0.5 --fill-voids all --largest 1 -o solid.vtu -o skin.ply",
+    "alphamesh mesh atoms.csv --periods 10,10,10 -r 1.2 -o atoms.vtu",
     "alphamesh mesh a.csv b.csv scan.ply --output-dir meshes --to vtu --jobs 2 --keep-going",
     "alphamesh sample shape.png -o - | alphamesh mesh - -o - --to off",
 )
@@ -67,6 +69,7 @@ _EXAMPLES = (
 @solid_options
 @surface_option
 @plot_option("Draw cloud, Delaunay triangulation and complex side by side.")
+@periods_option
 @cloud_options
 def command(
     sources: tuple[str, ...],
@@ -83,6 +86,9 @@ def command(
     Points with a third coordinate, a column z, are in space. Then VTU, VTK, MSH and
     NPZ get tetrahedra; formats of surfaces get the closed surface around them,
     watertight and oriented. The scan of a surface is found out, closed and filled.
+
+    With --periods, the mesh is that of one box: what crosses its border is there once,
+    in one piece, and reaches beyond it.
 
     Without -o, the mesh is only described. With --output-dir, a mesh of every INPUT
     is written there, under its name.
@@ -132,7 +138,7 @@ def _mesh_file(source: str, path: Path, options: dict[str, Any]) -> dict[str, An
 
 @dataclass(frozen=True, slots=True)
 class _Made:
-    """A shape in the plane or in space; `solid` tells of one in space."""
+    """A shape in the plane, in space or in a box; `solid` tells of one in space."""
 
     job: Job
     choice: RadiusChoice
@@ -142,6 +148,12 @@ class _Made:
 
 def _made(source: str, options: dict[str, Any], steps: Steps) -> _Made:
     job = Job.begin(source, options, steps, space=True, attributes=options["keep_columns"])
+    if options["periods"] is not None:
+        if options["keep_columns"]:
+            raise click.UsageError("--keep-columns does not go with --periods; leave it out")
+        refuse_solid_options(options, "points in a periodic box")
+        choice = job.choose(options["radius"], steps)
+        return _Made(job, choice, job.complex.at(choice.radius))
     if job.complex.points.shape[1] == 3:
         if options["keep_columns"]:
             raise click.UsageError("--keep-columns is for points in the plane; leave it out")
@@ -166,7 +178,9 @@ def _draw(made: _Made, path: Path) -> None:
     from alphamesh.plot import plot_overview
     from alphamesh.plot.overview3d import plot_shape_in_space
 
-    if made.solid is not None:
+    if made.job.periodic:
+        figure = made.shape.plot().figure
+    elif made.solid is not None:
         figure = plot_shape_in_space(made.solid.shape)
     else:
         figure = plot_overview(made.job.complex, made.choice.radius)
@@ -180,8 +194,14 @@ def _facts(made: _Made) -> dict[str, Any]:
         "rule": made.choice.rule,
         "reason": made.choice.reason,
         **made.shape.counts,
-        **(_sizes(made.shape) if made.solid is None else made.solid.facts()),
+        **_told_sizes(made),
     }
+
+
+def _told_sizes(made: _Made) -> dict[str, Any]:
+    if made.job.periodic:
+        return box_sizes(made.shape)
+    return _sizes(made.shape) if made.solid is None else made.solid.facts()
 
 
 def _sizes(shape: AlphaShape) -> dict[str, Any]:
@@ -197,7 +217,9 @@ def _lines(made: _Made) -> dict[str, str]:
         for name in (*told, "isolated_vertices")
         if name in shape.counts and (name != "triangles" or "tetrahedra" not in shape.counts)
     }
-    if made.solid is not None:
+    if made.job.periodic:
+        sizes = box_lines(shape)
+    elif made.solid is not None:
         sizes = made.solid.lines()
     else:
         sizes = {"Area": area_text(shape.area), "Perimeter": length_text(shape.perimeter)}

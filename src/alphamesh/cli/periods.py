@@ -6,13 +6,22 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from alphamesh.cli.summary import counted, number
+from alphamesh.cli.summary import area_text, counted, length_text, number, volume_text
 from alphamesh.cli.types import ParamType
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["betti_text", "class_names", "periods_facts", "periods_option"]
+    from alphamesh.periodic import PeriodicShape
+
+__all__ = [
+    "betti_text",
+    "box_lines",
+    "box_sizes",
+    "class_names",
+    "periods_facts",
+    "periods_option",
+]
 
 
 class PeriodsType(ParamType):
@@ -79,3 +88,24 @@ def periods_facts(complex_: Any) -> tuple[dict[str, Any], dict[str, str]]:
     sides = ("open" if side is None else number(side) for side in periods)
     text = " x ".join(sides)
     return {"periods": list(periods)}, {"Periodic box": text}
+
+
+def box_sizes(shape: PeriodicShape) -> dict[str, Any]:
+    """Return how large what one box holds is, for programs."""
+    if shape.points.shape[1] == 2:
+        sizes = {"area": shape.area, "perimeter": shape.perimeter}
+    else:
+        sizes = {"volume": shape.volume, "surface_area": shape.surface_area}
+    return {**sizes, "filled_share": shape.filled_share}
+
+
+def box_lines(shape: PeriodicShape) -> dict[str, str]:
+    """Return the same for people."""
+    texts = (area_text, length_text) if shape.points.shape[1] == 2 else (volume_text, area_text)
+    *sizes, share = box_sizes(shape).items()
+    told = {
+        name.replace("_", " ").capitalize(): text(value)
+        for (name, value), text in zip(sizes, texts, strict=True)
+    }
+    # No share of a box that is open and has no end.
+    return {**told, "Filled": f"{share[1]:.1%} of the box"} if share[1] else told

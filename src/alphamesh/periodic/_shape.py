@@ -12,14 +12,18 @@ from alphamesh._arrays import Record, read_only
 from alphamesh.classify import checked_radius
 from alphamesh.errors import DimensionError, PeriodicError
 from alphamesh.periodic._filtration import PeriodicFiltration
+from alphamesh.periodic._mesh import periodic_mesh
 from alphamesh.periodic._persistence import periodic_persistence
 from alphamesh.planar import PlanarShape
 from alphamesh.solid import SolidShape
 
 if TYPE_CHECKING:
+    import os
+
     from matplotlib.axes import Axes
 
     from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
+    from alphamesh.io.meshes import Mesh
     from alphamesh.plot import Drawing
 
 __all__ = ["PeriodicShape"]
@@ -200,6 +204,50 @@ class PeriodicShape(Record):
     def _need_space(self, what: str, other: str) -> None:
         if self._d == 2:
             raise DimensionError(f"{what} is there in space alone; in the plane, see {other}")
+
+    # What to do with it
+
+    def mesh(self, *, surface: bool = False) -> Mesh:
+        """Return what one box holds as the mesh that is written to files.
+
+        Each simplex is there once, in one piece, where its first vertex lies in the box:
+        those that cross the border reach beyond it.
+
+        Parameters
+        ----------
+        surface : bool, default False
+            In space: put the boundary triangles, counter-clockwise seen from outside, in
+            the place of the tetrahedra.
+
+        Returns
+        -------
+        Mesh
+            Triangles or, in space, tetrahedra; and simplices that are a face of no other
+            one. The numbers ``"input_row"`` of its points are their rows in `points`,
+            ``"offset_x"``, ``"offset_y"`` and ``"offset_z"`` how many periods they lie
+            from their place in the box; ``"radius"`` of its cells their filtration values.
+
+        Raises
+        ------
+        DimensionError
+            If the surface of a complex in the plane is asked for.
+        """
+        if surface:
+            self._need_space("the surface", "boundary_edges")
+        return periodic_mesh(self, surface=surface)
+
+    def save(self, path: str | os.PathLike[str], *, file_format: str | None = None) -> None:
+        """Write what one box holds to a mesh file, whole or not at all.
+
+        Of complexes in space, formats that hold tetrahedra (VTU, VTK, MSH and NPZ) get
+        ``mesh()``, the others (PLY, OBJ, OFF and STL) ``mesh(surface=True)``.
+
+        Parameters, errors and warnings are those of :meth:`alphamesh.AlphaShape.save`.
+        """
+        from alphamesh.io.meshes import mesh_format, write_mesh
+
+        surface = self._d == 3 and "tetra" not in mesh_format(path, file_format).cells
+        write_mesh(self.mesh(surface=surface), path, file_format=file_format)
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Drawing:
         """Draw the complex, the box and what crosses its border; in the plane alone.
