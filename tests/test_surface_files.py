@@ -282,6 +282,28 @@ def test_damaged_packed_points_are_refused(las, tmp_path):
         changed(whole, start, "<q", -1) + struct.pack("<q", place)
     )
     assert len(read_points(tmp_path / "streamed.laz")) == 200
+    # A chunk may be said to hold more points than there are: no room is made for them.
+    for points in (2**32 - 2, 3_271_622_655):
+        (tmp_path / "large.laz").write_bytes(changed(whole, record + 12, "<I", points))
+        assert len(read_points(tmp_path / "large.laz")) == 200
+
+
+def test_damaged_layers_of_points_are_refused(tmp_path):
+    """Found while mending what fuzzing found: lazrs makes room for what a layer says."""
+    laspy = pytest.importorskip("laspy")
+    pytest.importorskip("lazrs")
+    scan = laspy.LasData(laspy.LasHeader(point_format=8, version="1.4"))
+    x = np.arange(60_000.0)
+    scan.x, scan.y, scan.z = x, x % 7, x % 11
+    scan.write(tmp_path / "whole.laz")
+    np.testing.assert_array_equal(read_points(tmp_path / "whole.laz")[:, 0], x)
+    whole = (tmp_path / "whole.laz").read_bytes()
+    start = struct.unpack_from("<I", whole, 96)[0]
+    for layer in range(9 + 2):  # of points, and of colours with infrared
+        place = start + 8 + 38 + 4 + 4 * layer
+        (tmp_path / "cut.laz").write_bytes(changed(whole, place, "<I", 2**32 - 5))
+        with pytest.raises(FileReadError, match="table of packed chunks"):
+            read_points(tmp_path / "cut.laz")
 
 
 @pytest.mark.parametrize("encoding", ["ASCII", "BINARY", "BINARY_COMPRESSED"])

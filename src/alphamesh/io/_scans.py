@@ -10,6 +10,7 @@ import numpy as np
 
 from alphamesh.errors import FileReadError, MissingLibraryError
 from alphamesh.io._columns import Wanted, choose_columns, exact_floats, stack
+from alphamesh.io._laz import laz_backend, refuse_packed
 from alphamesh.io._sources import Source
 
 if TYPE_CHECKING:
@@ -55,9 +56,10 @@ def las_table(source: Source) -> tuple[list[str], Any]:
         _refuse_other(source, file.read(4), b"LASF", "LAS")
         file.seek(0)
         refuse_counts(source, file)
-        file.seek(0)
         try:
-            points: Any = laspy.read(file, closefd=False)
+            backend = laz_backend(file)
+            file.seek(0)
+            points: Any = laspy.read(file, closefd=False, **backend)
         except Exception as error:  # laspy and its decoders raise errors of many types
             if "No LazBackend" in str(error):
                 raise MissingLibraryError.of("lazrs", "las", "reading LAZ files") from error
@@ -150,27 +152,7 @@ def refuse_counts(source: Source, file: BinaryIO) -> None:
     if kind < _PACKED and points > following:
         raise _cut_off(source, points, following)
     if kind >= _PACKED and points:
-        _refuse_chunks(source, file, start)
-
-
-def _refuse_chunks(source: Source, file: BinaryIO, start: int) -> None:
-    """Refuse a table of more chunks of points than the file has bytes.
-
-    lazrs makes room for as many as are promised, and ends the process if there is none.
-    The table's place is told where the points begin, or at the end if that says -1.
-    """
-    place = -1
-    for at in (start, source.size - 8):
-        file.seek(max(0, at))
-        (place,) = struct.unpack("<q", file.read(8).ljust(8, b"\0"))
-        if place != -1:
-            break
-    file.seek(max(0, place))
-    _, chunks = struct.unpack("<II", file.read(8).ljust(8, b"\0"))
-    if place < 0 or chunks > source.size:
-        raise source.failure(
-            "is damaged: its table of packed chunks is not in its place; write or copy it again"
-        )
+        refuse_packed(source, file, start)
 
 
 def _cut_off(source: Source, promised: int, following: int) -> FileReadError:

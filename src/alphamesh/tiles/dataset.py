@@ -13,6 +13,7 @@ import numpy as np
 
 from alphamesh.errors import FileReadError, MissingLibraryError, NonFiniteError, rows_text
 from alphamesh.io._columns import Columns, Wanted, choose_columns, wanted_columns
+from alphamesh.io._laz import laz_backend
 from alphamesh.io._scans import refuse_counts
 from alphamesh.io._sources import open_source
 
@@ -283,7 +284,9 @@ def _las(path: str | Path) -> Any:
     except ImportError as error:
         raise MissingLibraryError.of("laspy", "tiles", "reading LAS files") from error
     try:
-        return laspy.open(path)
+        with Path(path).open("rb") as file:
+            backend = laz_backend(file)
+        return laspy.open(path, **backend)
     except (laspy.errors.LaspyException, OSError, ValueError) as error:
         raise FileReadError(f"{path} is not a complete LAS file ({error})") from error
 
