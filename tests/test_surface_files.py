@@ -271,6 +271,7 @@ def test_damaged_packed_points_are_refused(las, tmp_path):
     for name, data, message in (
         ("chunks.laz", changed(whole, place + 4, "<I", 2**32 - 1), "table of packed chunks"),
         ("place.laz", changed(whole, start, "<q", -5), "table of packed chunks"),
+        ("sizes.laz", changed(whole, record + 12, "<I", 0xC300FFFF), "chunks of 3271622655"),
         ("items.laz", changed(whole, record + 32, "<H", 0), "not a complete LAS file"),
         ("cut.laz", whole[:-30], "table of packed chunks|not a complete LAS file"),
     ):

@@ -17,8 +17,12 @@ if TYPE_CHECKING:
 
 __all__ = ["las_table", "pcd_table", "read_las", "read_pcd", "refuse_counts"]
 
-# Point formats from here on are those of LAZ.
-_PACKED = 64
+# Point formats from here on are those of LAZ; the record that tells how points are packed.
+_PACKED, _PACKING = 64, 22204
+# Chunks have 50,000 points as a rule, or as many each as a table tells. Larger ones, in bytes
+# when unpacked, are beyond belief but in a file that is large itself.
+_ANY_CHUNK = (1 << 32) - 1
+_LARGEST_CHUNK, _MOST_PACKED = 1 << 28, 64
 
 
 def read_las(source: Source, wanted: Wanted) -> FloatArray:
@@ -151,6 +155,7 @@ def refuse_counts(source: Source, file: BinaryIO) -> None:
         raise _cut_off(source, points, following)
     if kind >= _PACKED and points:
         _refuse_chunks(source, file, start)
+        _refuse_large_chunks(source, file, (header, records), length)
 
 
 def _refuse_chunks(source: Source, file: BinaryIO, start: int) -> None:
@@ -171,6 +176,28 @@ def _refuse_chunks(source: Source, file: BinaryIO, start: int) -> None:
         raise source.failure(
             "is damaged: its table of packed chunks is not in its place; write or copy it again"
         )
+
+
+def _refuse_large_chunks(
+    source: Source, file: BinaryIO, place: tuple[int, int], length: int
+) -> None:
+    """Refuse chunks of so many points that lazrs finds no room for one and ends the process.
+
+    `place` tells where the records begin, and how many there are; a point has `length` bytes.
+    """
+    file.seek(place[0])
+    most = max(_LARGEST_CHUNK, _MOST_PACKED * source.size)
+    for _ in range(place[1]):
+        _, _, kind, size = struct.unpack("<H16sHH", file.read(54).ljust(54, b"\0")[:22])
+        body = file.read(size)
+        if kind != _PACKING or len(body) < 16:
+            continue
+        (chunk,) = struct.unpack_from("<I", body, 12)
+        if chunk != _ANY_CHUNK and chunk * length > most:
+            raise source.failure(
+                f"is damaged: it promises chunks of {chunk} packed points; write or copy it "
+                "again"
+            )
 
 
 def _cut_off(source: Source, promised: int, following: int) -> FileReadError:
