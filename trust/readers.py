@@ -28,6 +28,7 @@ from alphamesh.errors import AlphameshError, AlphameshWarning
 from alphamesh.io.geo import GEO_FORMATS, read_geo, write_geo
 from alphamesh.io.images import read_mask
 from alphamesh.io.meshes import MESH_FORMATS, read_mesh
+from alphamesh.io.molecules import read_molecule
 from alphamesh.io.points import read_points, read_table
 
 __all__ = ["campaign", "damaged", "outcome", "samples"]
@@ -57,6 +58,10 @@ def samples(folder: Path) -> dict[str, tuple[bytes, Reader]]:
     _scans(folder, points)
     for name in ("csv", "tsv", "xyz", "csv.gz", "npy", "npz", "parquet", "las", "laz", "pcd"):
         keep(f"points.{name}", _read_points_and_table)
+    keep("layers.laz", _read_points_and_table)
+    _molecules(folder, points[:6])
+    for name in ("atoms.pdb", "atoms.cif"):
+        keep(name, _read_molecule_and_points)
     shape = am.AlphaComplex(points).at(1.5)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AlphameshWarning)
@@ -84,6 +89,11 @@ def _read_geo_and_points(path: Path) -> None:
         read_points(path)
 
 
+def _read_molecule_and_points(path: Path) -> None:
+    read_molecule(path)
+    read_points(path)
+
+
 def _scans(folder: Path, points: Any) -> None:
     import laspy
     import pypcd4
@@ -94,8 +104,30 @@ def _scans(folder: Path, points: Any) -> None:
     scan.x, scan.y, scan.z = points[:, 0], points[:, 1], points.sum(axis=1)
     scan.write(folder / "points.las")
     scan.write(folder / "points.laz")
+    laspy.convert(scan, point_format_id=8).write(folder / "layers.laz")
     places = np.column_stack((points, points.sum(axis=1))).astype(np.float32)
     pypcd4.PointCloud.from_xyz_points(places).save(folder / "points.pcd")
+
+
+def _molecules(folder: Path, points: Any) -> None:
+    import gemmi
+
+    structure = gemmi.Structure()
+    chain = gemmi.Chain("A")
+    for number, (x, y) in enumerate(points.tolist()):
+        atom = gemmi.Atom()
+        atom.name, atom.element = "CA", gemmi.Element("C")
+        atom.pos = gemmi.Position(x, y, x + y)
+        residue = gemmi.Residue()
+        residue.name, residue.seqid = "ALA", gemmi.SeqId(str(number))
+        residue.add_atom(atom)
+        chain.add_residue(residue)
+    model = gemmi.Model(1)
+    model.add_chain(chain)
+    structure.add_model(model)
+    structure.setup_entities()
+    structure.write_pdb(str(folder / "atoms.pdb"))
+    structure.make_mmcif_document().write_file(str(folder / "atoms.cif"))
 
 
 def _geographic(folder: Path, points: Any) -> list[str]:

@@ -1,6 +1,7 @@
 // From the bytes of a fuzzer to a cloud, in encodings that make nasty ones likely.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -35,11 +36,26 @@ struct Cloud {
   bool again = false;      // build it once more, in reverse and with one thread
   std::size_t choice = 0;  // which value of the filtration is the radius
   std::vector<double> coordinates;
+  std::vector<double> weights;     // empty for a cloud without
+  bool periodic = false;
+  double periods[3] = {0, 0, 0};  // of a periodic cloud, zero where it is open
 
   const double* row(std::size_t i) const { return coordinates.data() + dimension * i; }
 };
 
+// The same with its points in reverse order.
+inline Cloud reversed(const Cloud& cloud) {
+  Cloud out = cloud;
+  std::reverse(out.weights.begin(), out.weights.end());
+  out.coordinates.clear();
+  for (std::size_t i = cloud.n; i-- > 0;) {
+    out.coordinates.insert(out.coordinates.end(), cloud.row(i), cloud.row(i) + cloud.dimension);
+  }
+  return out;
+}
+
 enum class Encoding { whole, grid, ulps, exponents, repeated, raw, flat, round };
+enum class Weighing { whole, grid, ulps, exponents, raw, lifted, above, equal };
 
 class Decoder {
  public:
@@ -54,12 +70,26 @@ class Decoder {
     const int exponent = bytes_.small() * ((how & 8) != 0 ? 8 : 1);
     cloud_.choice = bytes_.next();
     for (int& v : span_) v = encoding_ == Encoding::flat ? bytes_.small() : 0;
-    const std::size_t most = cloud_.dimension == 2 ? 48 : 24;
+    const bool weighted = (how & 16) != 0;
+    if (weighted) {
+      const std::uint8_t weighing = bytes_.next();
+      weighing_ = static_cast<Weighing>(weighing % 8);
+      weight_exponent_ = (weighing >> 3) % 16 - 4;
+    }
+    cloud_.periodic = (how & 32) != 0;
+    std::size_t most = cloud_.dimension == 2 ? 48 : 24;
+    if (cloud_.periodic) {
+      periods(how >> 6);
+      most = cloud_.dimension == 2 ? 16 : 6;
+    }
     while (bytes_.more() && cloud_.n < most) {
       point();
+      if (weighted) cloud_.weights.push_back(weight());
       ++cloud_.n;
     }
     for (double& v : cloud_.coordinates) v = std::ldexp(v, exponent);
+    for (double& v : cloud_.weights) v = std::ldexp(v, 2 * exponent);
+    for (double& v : cloud_.periods) v = std::ldexp(v, exponent);
     return std::move(cloud_);
   }
 
@@ -86,6 +116,46 @@ class Decoder {
       return;
     }
     for (std::size_t k = 0; k < d; ++k) cloud_.coordinates.push_back(coordinate());
+  }
+
+  // One direction may be open, of those of a box in the plane.
+  void periods(int open) {
+    for (std::size_t k = 0; k < cloud_.dimension; ++k) {
+      const std::uint8_t side = bytes_.next();
+      if (open == static_cast<int>(k) + 1 || (open == 3 && k != side % 2)) continue;
+      const double whole = 1 + side % 32;
+      cloud_.periods[k] = side < 128 ? whole : side < 192 ? whole / 10 : nudged(whole, side % 3);
+    }
+    if (cloud_.periods[0] == 0 && cloud_.periods[1] == 0 && cloud_.periods[2] == 0) {
+      cloud_.periods[cloud_.dimension - 1] = 4.0;
+    }
+  }
+
+  double weight() {
+    const double* p = cloud_.row(cloud_.n);
+    const double square = p[0] * p[0] + p[1] * p[1] + (cloud_.dimension == 3 ? p[2] * p[2] : 0.0);
+    switch (weighing_) {
+      case Weighing::whole:
+        return std::ldexp(bytes_.small(), weight_exponent_);
+      case Weighing::grid:
+        return std::ldexp(bytes_.next() % 4, weight_exponent_);
+      case Weighing::ulps: {
+        const int v = bytes_.small();
+        return std::ldexp(nudged(0.1 * (v >> 4), (v & 15) - 8), weight_exponent_);
+      }
+      case Weighing::exponents: {
+        const int mantissa = bytes_.small();
+        return std::ldexp(mantissa, bytes_.small());
+      }
+      case Weighing::raw:
+        return bytes_.number();
+      case Weighing::lifted:  // all in one plane, but for rounding and ulps
+        return nudged(square, bytes_.small() % 3);
+      case Weighing::above:
+        return square + std::ldexp(bytes_.small(), weight_exponent_);
+      default:
+        return nudged(std::ldexp(3, weight_exponent_), bytes_.next() < 200 ? 0 : 1);
+    }
   }
 
   double coordinate() {
@@ -145,6 +215,8 @@ class Decoder {
   Bytes bytes_;
   Cloud cloud_;
   Encoding encoding_ = Encoding::whole;
+  Weighing weighing_ = Weighing::whole;
+  int weight_exponent_ = 0;
   int span_[9] = {};
 };
 

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "../wide.hpp"
@@ -68,23 +69,25 @@ using Id = std::int32_t;
 
 class Geometry {
  public:
-  // Points in the plane get a third coordinate, zero. Queries are numbered on from n.
+  // Points in the plane get a third coordinate, zero. Queries are numbered on from n, their
+  // weights are zero.
   Geometry(const Cloud& cloud, const std::vector<double>& queries) {
     int least = 0;
     for (double v : cloud.coordinates) least = std::min(least, lowest_bit(v));
     for (double v : queries) least = std::min(least, lowest_bit(v));
+    for (double w : cloud.weights) least = std::min(least, half_of(lowest_bit(w)));
     shift_ = -least;
     add(cloud.coordinates, cloud.dimension);
     add(queries, cloud.dimension);
-    axes_ = {0, 1};
+    weight(cloud.weights);
   }
 
-  int shift() const { return shift_; }
   const Vector<Wide>& wide(Id i) const { return wide_[static_cast<std::size_t>(i)]; }
   const Vector<double>& plain(Id i) const { return plain_[static_cast<std::size_t>(i)]; }
+  bool weighted() const { return !plain_weight_.empty(); }
+  double weight(Id i) const { return weighted() ? plain_weight_[static_cast<std::size_t>(i)] : 0.0; }
 
   bool before(Id a, Id b) const { return plain(a) < plain(b); }
-  bool same(Id a, Id b) const { return plain(a) == plain(b); }
 
   // Clouds on a plane of space are looked at along one axis.
   void look_along(std::size_t dropped) {
@@ -125,12 +128,24 @@ class Geometry {
     return true;
   }
 
-  // +1 if d is in the circle through a, b, c, counter-clockwise as looked at; 0 on it.
+  // +1 if c, between a and b on a line, is lifted below the segment from a to b; 0 on it.
+  int in_interval(Id a, Id b, Id c) const {
+    std::size_t axis = 0;
+    while (axis < 2 && plain(a)[axis] == plain(b)[axis]) ++axis;
+    const int sign = plain(a)[axis] < plain(b)[axis] ? 1 : -1;
+    return sign * sign_of([&](auto kind) {
+             using R = decltype(kind);
+             return lift<R>(a, c) * step<R>(b, c)[axis] - lift<R>(b, c) * step<R>(a, c)[axis];
+           });
+  }
+
+  // +1 if d is in the circle through a, b, c, counter-clockwise as looked at; 0 on it. With
+  // weights, here and below, whether its power is less than theirs where these are equal.
   int in_circle(Id a, Id b, Id c, Id d) const {
     return sign_of([&](auto kind) {
       using R = decltype(kind);
       const auto u = step<R>(a, d), v = step<R>(b, d), w = step<R>(c, d);
-      return dot(u, u) * flat(v, w) - dot(v, v) * flat(u, w) + dot(w, w) * flat(u, v);
+      return lift<R>(a, d) * flat(v, w) - lift<R>(b, d) * flat(u, w) + lift<R>(c, d) * flat(u, v);
     });
   }
   // The same when ties are broken: the largest of the points is lifted most.
@@ -154,8 +169,8 @@ class Geometry {
     return sign_of([&](auto kind) {
       using R = decltype(kind);
       const auto s = step<R>(a, e), t = step<R>(b, e), u = step<R>(c, e), v = step<R>(d, e);
-      return dot(s, s) * det(t, u, v) - dot(t, t) * det(s, u, v) + dot(u, u) * det(s, t, v) -
-             dot(v, v) * det(s, t, u);
+      return lift<R>(a, e) * det(t, u, v) - lift<R>(b, e) * det(s, u, v) +
+             lift<R>(c, e) * det(s, t, v) - lift<R>(d, e) * det(s, t, u);
     });
   }
   int in_sphere_or_out(Id a, Id b, Id c, Id d, Id e) const {
@@ -174,45 +189,36 @@ class Geometry {
     return 0;
   }
 
-  // Which side of the smallest sphere through a, b, c: +1 if d is inside, 0 on it.
-  int in_smallest(Id a, Id b, Id c, Id d) const {
+  // Which side of the smallest sphere through k points, 1 to 3: +1 if q is inside, 0 on it.
+  int in_smallest(const Id* p, std::size_t k, Id q) const {
     return sign_of([&](auto kind) {
       using R = decltype(kind);
-      // Inside if |d - z|^2 < r^2 with z = a + (u2 (v x n) + v2 (n x u)) / 2n.n, n = u x v.
-      const auto u = step<R>(b, a), v = step<R>(c, a), w = step<R>(d, a), n = cross(u, v);
-      const auto vn = cross(v, n), nu = cross(n, u);
-      const R u2 = dot(u, u), v2 = dot(v, v), along = u2 * dot(vn, w) + v2 * dot(nu, w);
-      return along - dot(w, w) * dot(n, n);
+      // Inside if lift(q) < 2 (z - p0) . (q - p0); multiplied by the denominator of z.
+      const auto w = step<R>(q, p[0]);
+      const R height = lift<R>(q, p[0]);
+      if (k == 1) return R() - height;
+      const auto u = step<R>(p[1], p[0]);
+      if (k == 2) return lift<R>(p[1], p[0]) * dot(u, w) - height * dot(u, u);
+      const auto v = step<R>(p[2], p[0]), n = cross(u, v);
+      const R along = lift<R>(p[1], p[0]) * dot(cross(v, n), w) + lift<R>(p[2], p[0]) * dot(cross(n, u), w);
+      return along - height * dot(n, n);
     });
   }
 
-  // Whether `radius` is the circumradius of k points, 2 to 4, up to a relative error.
-  bool is_circumradius(const Id* p, std::size_t k, double radius, double error) const {
-    Wide top, bottom;  // the square of the radius is their quotient
-    const auto u = step<Wide>(p[1], p[0]);
-    const Wide four = Wide::of(4.0, 0);
-    if (k == 2) {
-      top = dot(u, u);
-      bottom = four;
-    } else if (k == 3) {
-      const auto v = step<Wide>(p[2], p[0]), w = v - u, n = cross(u, v);
-      top = dot(u, u) * dot(v, v) * dot(w, w);
-      bottom = four * dot(n, n);
-    } else {
-      const auto v = step<Wide>(p[2], p[0]), w = step<Wide>(p[3], p[0]);
-      const auto vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
-      const Wide u2 = dot(u, u), v2 = dot(v, v), w2 = dot(w, w), d = dot(uv, w);
-      Vector<Wide> z;
-      for (std::size_t a = 0; a < 3; ++a) z[a] = u2 * vw[a] + v2 * wu[a] + w2 * uv[a];
-      top = dot(z, z);
-      bottom = four * d * d;
-    }
-    const double low = radius * (1.0 - error), high = radius * (1.0 + error);
+  // Whether `radius` is the circumradius of k points, 1 to 4, or with weights the signed root of
+  // their power value, up to a relative error.
+  bool is_value(const Id* p, std::size_t k, double radius, double error) const {
+    const auto [top, bottom] = value_of(p, k);
+    const double some = std::fabs(radius) * error, low = radius - some, high = radius + some;
     const int finer = std::max({shift_, -lowest_bit(low), -lowest_bit(high)});
-    const Wide unit = Wide::of(1.0, finer - shift_);
-    const Wide l = Wide::of(low, finer), h = Wide::of(high, finer), t = top * unit * unit;
-    return (l * l * bottom - t).sign() <= 0 && (h * h * bottom - t).sign() >= 0;
+    const Wide unit = Wide::of(1.0, finer - shift_), t = top * unit * unit;
+    const auto square = [&](double v) {
+      const Wide root = Wide::of(v, finer);
+      return v < 0 ? -(root * root) : root * root;
+    };
+    return (square(low) * bottom - t).sign() <= 0 && (square(high) * bottom - t).sign() >= 0;
   }
+  bool is_zero(const Id* p, std::size_t k) const { return value_of(p, k).first.sign() == 0; }
 
  private:
   void add(const std::vector<double>& coordinates, std::size_t dimension) {
@@ -221,6 +227,57 @@ class Geometry {
       for (std::size_t k = 0; k < dimension; ++k) p[k] = coordinates[i + k];
       plain_.push_back(p);
       wide_.push_back({Wide::of(p[0], shift_), Wide::of(p[1], shift_), Wide::of(p[2], shift_)});
+    }
+  }
+  void weight(const std::vector<double>& weights) {
+    if (weights.empty()) return;
+    plain_weight_ = weights;
+    plain_weight_.resize(plain_.size());
+    for (double w : plain_weight_) wide_weight_.push_back(Wide::of(w, 2 * shift_));
+  }
+  static int half_of(int bit) { return bit == INT_MAX ? bit : (bit - (bit & 1)) / 2; }
+
+  // The square of the circumradius or, with weights, the power value: a quotient.
+  std::pair<Wide, Wide> value_of(const Id* p, std::size_t k) const {
+    const Wide weight = weighted() ? wide_weight_[static_cast<std::size_t>(p[0])] : Wide();
+    if (k == 1) return {-weight, Wide::of(1.0, 0)};
+    const Wide four = Wide::of(4.0, 0), lu = lift<Wide>(p[1], p[0]);
+    const auto u = step<Wide>(p[1], p[0]);
+    if (k == 2) {
+      const Wide bottom = four * dot(u, u);
+      return {lu * lu - bottom * weight, bottom};
+    }
+    const auto v = step<Wide>(p[2], p[0]), n = cross(u, v);
+    const Wide lv = lift<Wide>(p[2], p[0]);
+    // The orthocentre is z / 2d from the first point.
+    Vector<Wide> z;
+    Wide d;
+    if (k == 3) {
+      const auto vn = cross(v, n), nu = cross(n, u);
+      for (std::size_t a = 0; a < 3; ++a) z[a] = lu * vn[a] + lv * nu[a];
+      d = dot(n, n);
+    } else {
+      const auto w = step<Wide>(p[3], p[0]), vw = cross(v, w), wu = cross(w, u);
+      const Wide lw = lift<Wide>(p[3], p[0]);
+      for (std::size_t a = 0; a < 3; ++a) z[a] = lu * vw[a] + lv * wu[a] + lw * n[a];
+      d = dot(n, w);
+    }
+    const Wide bottom = four * d * d;
+    return {dot(z, z) - bottom * weight, bottom};
+  }
+
+  // The square of the distance less the difference of the weights.
+  template <class R>
+  R lift(Id to, Id from) const {
+    const auto v = step<R>(to, from);
+    const R square = dot(v, v);
+    if (!weighted()) return square;
+    if constexpr (std::is_same_v<R, Wide>) {
+      return square - wide_weight_[static_cast<std::size_t>(to)] +
+             wide_weight_[static_cast<std::size_t>(from)];
+    } else {
+      const long double change = static_cast<long double>(weight(to)) - weight(from);
+      return square - Rough{change, std::fabs(change)};
     }
   }
 
@@ -251,9 +308,11 @@ class Geometry {
   }
 
   int shift_ = 0;
-  std::array<std::size_t, 2> axes_{};
+  std::array<std::size_t, 2> axes_{0, 1};
   std::vector<Vector<double>> plain_;
   std::vector<Vector<Wide>> wide_;
+  std::vector<double> plain_weight_;  // empty without weights
+  std::vector<Wide> wide_weight_;
 };
 
 }  // namespace trust

@@ -12,6 +12,7 @@
 #include "parts.hpp"
 #include "persistence2.hpp"
 #include "proof.hpp"
+#include "regular2.hpp"
 #include "restricted2.hpp"
 #include "voronoi2.hpp"
 
@@ -26,15 +27,32 @@ using alphamesh::Point2;
 constexpr double kError = 1e-14;
 
 struct Built {
-  alphamesh::SpatialOrder2 order;
+  int dimension = -1, exponent = 0;
+  Buffer<Id> representative;
   alphamesh::Filtration2 f;
+  Buffer<Id> vertices, hidden;  // with weights
+  Buffer<double> vertex_radii;
 };
 
-Built build(const std::vector<double>& points, Job& job) {
+Built build(const Cloud& cloud, Job& job) {
   Built out;
-  out.order = alphamesh::spatial_order2(points.data(), points.size() / 2, job);
-  alphamesh::Mesh2 mesh = alphamesh::delaunay2(out.order, job);
-  out.f = alphamesh::filtration2(out.order, mesh, job);
+  const double* weights = cloud.weights.empty() ? nullptr : cloud.weights.data();
+  auto order = alphamesh::spatial_order2(cloud.coordinates.data(), cloud.n, job, weights);
+  out.exponent = order.exponent;
+  if (weights == nullptr) {
+    alphamesh::Mesh2 mesh = alphamesh::delaunay2(order, job);
+    out.f = alphamesh::filtration2(order, mesh, job);
+    out.representative = std::move(order.representative);
+    return out;
+  }
+  out.representative = std::move(order.representative);
+  const Id* merged = out.representative.size() == 0 ? nullptr : out.representative.data();
+  auto regular = alphamesh::regular_filtration2(std::move(order), {weights, merged, cloud.n}, job);
+  out.dimension = regular.dimension;
+  out.f = std::move(regular.simplices);
+  out.vertices = std::move(regular.vertices);
+  out.vertex_radii = std::move(regular.vertex_radii);
+  out.hidden = std::move(regular.hidden);
   return out;
 }
 
@@ -51,6 +69,7 @@ class Plane {
         edges_(rows_of<2>(f_.edges.data(), f_.edge_radii.size())) {
     view_ = {cloud.coordinates.data(), cloud.n,       f_.triangles.data(),     triangles_.size(),
              f_.edges.data(),          edges_.size(), f_.edge_triangles.data()};
+    if (g_.weighted()) view_.weights = cloud.weights.data();
   }
 
   void prove_filtration();
@@ -91,9 +110,16 @@ class Plane {
 };
 
 void Plane::prove_filtration() {
-  vertices_ = proved_vertices(g_, cloud_.n, built_.order.representative.data(),
-                              built_.order.representative.size());
-  prove_triangulation(g_, vertices_, triangles_, edges_);
+  const auto places = proved_places(g_, cloud_.n, built_.representative);
+  vertices_ = places;
+  if (g_.weighted()) {
+    vertices_ = proved_vertices(g_, cloud_.n, places, built_.representative, built_.vertices,
+                                built_.hidden);
+    prove_vertex_values(g_, vertices_, built_.vertex_radii, edges_, f_.edge_radii.data());
+    const int expected = !triangles_.empty() ? 2 : !edges_.empty() ? 1 : vertices_.empty() ? -1 : 0;
+    require(built_.dimension == expected, "the dimension is that of the simplices");
+  }
+  prove_triangulation(g_, places, vertices_, triangles_, edges_);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     prove_value(g_, triangles_[t].data(), 3, {f_.triangle_radii[t]}, kError);
   }
@@ -105,8 +131,7 @@ void Plane::prove_filtration() {
     require(cofaces[0] >= 0 || cofaces[1] < 0, "a missing coface comes last");
     for (int k = 0; k < 2 && cofaces[k] >= 0; ++k) {
       const Id c = apex(e, cofaces[k]);
-      const int angle = g_.angle(ends[0], ends[1], c);
-      claim.inside |= angle < 0;
+      claim.inside |= g_.in_smallest(ends.data(), 2, c) > 0;
       claim.least = std::min(claim.least, f_.triangle_radii[static_cast<std::size_t>(cofaces[k])]);
     }
     prove_value(g_, ends.data(), 2, claim, kError);
@@ -128,13 +153,16 @@ void Plane::prove_filtration() {
 }
 
 void Plane::prove_persistence() {
+  const std::vector<double> births = births_of(cloud_.n, vertices_, built_.vertex_radii);
   const auto pairs =
-      alphamesh::persistence2(view_, nullptr, f_.triangle_radii.data(), f_.edge_radii.data(), job_);
-  const std::vector<double> zero(vertices_.size(), 0.0);
+      alphamesh::persistence2(view_, g_.weighted() ? births.data() : nullptr,
+                              f_.triangle_radii.data(), f_.edge_radii.data(), job_);
+  std::vector<double> values;
+  for (Id v : vertices_) values.push_back(births[static_cast<std::size_t>(v)]);
   std::vector<Id> number(cloud_.n, -1);
   for (std::size_t i = 0; i < vertices_.size(); ++i) number[vertices_[i]] = static_cast<Id>(i);
   const auto expected =
-      reduced({{vertices_.data(), zero.data(), vertices_.size()},
+      reduced({{vertices_.data(), values.data(), vertices_.size()},
                {f_.edges.data(), f_.edge_radii.data(), edges_.size()},
                {f_.triangles.data(), f_.triangle_radii.data(), triangles_.size()}});
   require(
@@ -144,35 +172,20 @@ void Plane::prove_persistence() {
           "loops are paired as the matrix says");
 }
 
-// Simplices by coordinates, so that they do not depend on the numbers of rows.
-template <std::size_t K>
-std::map<std::set<Vector<double>>, double> by_place(const Id* rows, const Buffer<double>& values,
-                                                    const std::vector<double>& points) {
-  std::map<std::set<Vector<double>>, double> out;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::set<Vector<double>> corners;
-    for (std::size_t k = 0; k < K; ++k) {
-      const auto row = static_cast<std::size_t>(rows[K * i + k]);
-      corners.insert({points[2 * row] + 0.0, points[2 * row + 1] + 0.0, 0.0});
-    }
-    out.emplace(corners, values[i]);
-  }
-  return out;
-}
-
 void Plane::prove_same_in_reverse() {
-  std::vector<double> reversed;
-  for (std::size_t i = cloud_.n; i-- > 0;) {
-    reversed.insert(reversed.end(), cloud_.row(i), cloud_.row(i) + 2);
-  }
+  const Cloud turned = reversed(cloud_);
   Job job(1);
-  const Built other = build(reversed, job);
-  require(by_place<3>(f_.triangles.data(), f_.triangle_radii, cloud_.coordinates) ==
-              by_place<3>(other.f.triangles.data(), other.f.triangle_radii, reversed),
-          "the same triangles for any order of the points and any number of threads");
-  require(by_place<2>(f_.edges.data(), f_.edge_radii, cloud_.coordinates) ==
-              by_place<2>(other.f.edges.data(), other.f.edge_radii, reversed),
-          "the same edges for any order of the points and any number of threads");
+  const Built other = build(turned, job);
+  const char* claim = "the same for any order of the points and any number of threads";
+  require(by_place<3>(cloud_, f_.triangles, f_.triangle_radii) ==
+              by_place<3>(turned, other.f.triangles, other.f.triangle_radii),
+          claim);
+  require(by_place<2>(cloud_, f_.edges, f_.edge_radii) ==
+              by_place<2>(turned, other.f.edges, other.f.edge_radii),
+          claim);
+  require(by_place<1>(cloud_, built_.vertices, built_.vertex_radii) ==
+              by_place<1>(turned, other.vertices, other.vertex_radii),
+          claim);
 }
 
 void Plane::prove_triangulation_alone() {
@@ -230,8 +243,10 @@ void Plane::prove_hull() {
 
 void Plane::prove_cells() {
   const auto has_triangle = within(f_.triangle_radii), has_edge = within(f_.edge_radii);
-  std::vector<char> active(cloud_.n, 0);
-  for (Id v : vertices_) active[static_cast<std::size_t>(v)] = 1;
+  std::vector<char> active;
+  for (double birth : births_of(cloud_.n, vertices_, built_.vertex_radii)) {
+    active.push_back(g_.weighted() ? birth <= radius_ : birth == 0.0);
+  }
   const auto flags = [](const std::vector<char>& v) {
     return reinterpret_cast<const bool*>(v.data());
   };
@@ -385,18 +400,20 @@ void Plane::prove_voronoi() {
 void prove_plane(const Cloud& cloud, const std::vector<double>& queries) {
   Job job(cloud.threads);
   const alphamesh::Recycling recycling;
-  Built built = build(cloud.coordinates, job);
+  Built built = build(cloud, job);
   Plane plane(cloud, queries, built, job);
   plane.prove_filtration();
   plane.prove_persistence();
   if (cloud.again) plane.prove_same_in_reverse();
-  plane.prove_triangulation_alone();
-  plane.prove_hull();
-  if (built.order.exponent != 0) return;
+  if (cloud.weights.empty()) {
+    plane.prove_triangulation_alone();
+    plane.prove_hull();
+  }
+  if (built.exponent != 0) return;
   plane.prove_cells();
   plane.prove_outlines();
-  plane.prove_nearest();
   plane.prove_voronoi();
+  if (cloud.weights.empty()) plane.prove_nearest();
 }
 
 }  // namespace trust

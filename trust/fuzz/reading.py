@@ -21,7 +21,9 @@ INSTRUMENTED = ("alphamesh", "laspy", "meshio", "pypcd4")
 # A GeoPackage has a hundred thousand bytes; mutations of it would be all there is time for.
 LARGEST = 20_000
 _MEMORY = 4 << 30
-_READING = tuple(f"alphamesh.io.{name}" for name in ("points", "meshes", "geo", "images"))
+_READING = tuple(
+    f"alphamesh.io.{name}" for name in ("points", "meshes", "geo", "images", "molecules")
+)
 
 
 def names(samples: dict[str, tuple[bytes, object]]) -> list[str]:

@@ -69,12 +69,10 @@ def _compile(
 ) -> list[str]:
     """Compile what is older than its source or any header; return the object files."""
     into.mkdir(parents=True, exist_ok=True)
-    headers = [
-        *_HERE.glob("*.hpp"),
-        *_HERE.parent.glob("*.hpp"),
-        *(_ROOT / "cpp").glob("*.hpp"),
-    ]
-    newest = max(path.stat().st_mtime for path in headers)
+    folders = {_ROOT / "cpp"} | {path.parent for path in sources}
+    if _HERE in folders:
+        folders.add(_HERE.parent)
+    newest = max(p.stat().st_mtime for folder in folders for p in folder.glob("*.hpp"))
 
     def one(source: Path) -> str:
         target = into / f"{source.stem}.o"

@@ -7,6 +7,7 @@
 #include "output3.hpp"
 #include "persistence3.hpp"
 #include "proof.hpp"
+#include "regular3.hpp"
 #include "sheet.hpp"
 #include "solid.hpp"
 #include "span3.hpp"
@@ -17,28 +18,42 @@ namespace {
 using alphamesh::Buffer;
 using alphamesh::Job;
 
-constexpr double kError = 2e-13;
+constexpr double kError = 2e-13, kWeightedError = 5e-13;
 
 struct Built {
-  alphamesh::SpatialOrder3 order;
+  int dimension = -1, exponent = 0;
+  Buffer<Id> representative;
   alphamesh::Filtration3 f;
-  int dimension = -1;
+  alphamesh::VertexRows vertices;  // with weights
 };
 
-Built build(const std::vector<double>& points, Job& job) {
-  Built out;
-  out.order = alphamesh::spatial_order3(points.data(), points.size() / 3, job);
-  const std::vector<Id> span = alphamesh::spanning_points(out.order, job);
-  out.dimension = static_cast<int>(span.size()) - 1;
-  if (out.dimension == 3) {
-    alphamesh::Mesh3 mesh = alphamesh::delaunay3(out.order, span, job);
-    out.f = alphamesh::filtration3(out.order, alphamesh::compact3(out.order, std::move(mesh), job),
-                                   job);
-    return out;
+alphamesh::Filtration3 filtration(const alphamesh::SpatialOrder3& order, int* dimension, Job& job) {
+  const std::vector<Id> span = alphamesh::spanning_points(order, job);
+  *dimension = static_cast<int>(span.size()) - 1;
+  if (*dimension == 3) {
+    alphamesh::Mesh3 mesh = alphamesh::delaunay3(order, span, job);
+    return alphamesh::filtration3(order, alphamesh::compact3(order, std::move(mesh), job), job);
   }
-  auto sheet = alphamesh::sheet_of(out.order, span, job);
+  auto sheet = alphamesh::sheet_of(order, span, job);
   alphamesh::Mesh2 mesh = alphamesh::delaunay2(sheet, job);
-  out.f = alphamesh::in_space(alphamesh::filtration2(sheet, mesh, job));
+  return alphamesh::in_space(alphamesh::filtration2(sheet, mesh, job));
+}
+
+Built build(const Cloud& cloud, Job& job) {
+  Built out;
+  const double* weights = cloud.weights.empty() ? nullptr : cloud.weights.data();
+  auto order = alphamesh::spatial_order3(cloud.coordinates.data(), cloud.n, job, weights);
+  out.exponent = order.exponent;
+  if (weights == nullptr) {
+    out.f = filtration(order, &out.dimension, job);
+  } else {
+    const Id* merged = order.representative.size() == 0 ? nullptr : order.representative.data();
+    auto regular = alphamesh::regular_filtration3(order, {weights, merged, cloud.n}, job);
+    out.dimension = regular.dimension;
+    out.f = std::move(regular.simplices);
+    out.vertices = std::move(regular.vertices);
+  }
+  out.representative = std::move(order.representative);
   return out;
 }
 
@@ -65,6 +80,7 @@ class Space {
  private:
   void prove_dimension();
   void prove_mesh();
+  void prove_hidden(Id h);
   void look_flat();
   Id cell_apex(Id triangle, Id cell) const {
     return apex_of(tetrahedra_[static_cast<std::size_t>(cell)],
@@ -80,7 +96,7 @@ class Space {
   std::vector<Row<4>> tetrahedra_;
   std::vector<Row<3>> triangles_;
   std::vector<Row<2>> edges_;
-  std::vector<Id> vertices_;
+  std::vector<Id> places_, vertices_;  // without duplicates; those that are not hidden
   Buffer<Id> tetrahedron_triangles_;
 };
 
@@ -93,7 +109,7 @@ void Space::look_flat() {
     if (g_.turn(t[0], t[1], t[2]) != 0) break;
   }
   require(dropped < 3, "no triangle is flat");
-  for (Id v : vertices_) require(g_.side(t[0], t[1], t[2], v) == 0, "all on a plane");
+  for (Id v : places_) require(g_.side(t[0], t[1], t[2], v) == 0, "all on a plane");
 }
 
 void Space::prove_dimension() {
@@ -127,7 +143,7 @@ void Space::prove_mesh() {
     const Id d = cell_apex(static_cast<Id>(f), cells[f][0].first);
     const int side = g_.side(a, b, c, d);
     if (cells[f].size() == 1) {
-      for (Id v : vertices_) require(g_.side(a, b, c, v) * side >= 0, "all within the hull");
+      for (Id v : places_) require(g_.side(a, b, c, v) * side >= 0, "all within the hull");
       continue;
     }
     const Id e = cell_apex(static_cast<Id>(f), cells[f][1].first);
@@ -136,20 +152,42 @@ void Space::prove_mesh() {
         side > 0 ? g_.in_sphere_or_out(a, b, c, d, e) : g_.in_sphere_or_out(b, a, c, d, e);
     require(s < 0, "locally Delaunay, ties broken");
   }
+  for (const Id h : places_) {
+    if (!std::binary_search(vertices_.begin(), vertices_.end(), h)) prove_hidden(h);
+  }
+}
+
+void Space::prove_hidden(Id h) {
+  for (const Row<4>& row : tetrahedra_) {
+    auto [a, b, c, d] = row;
+    if (g_.side(a, b, c, d) < 0) std::swap(a, b);
+    if (g_.side(h, b, c, d) < 0 || g_.side(a, h, c, d) < 0 || g_.side(a, b, h, d) < 0 ||
+        g_.side(a, b, c, h) < 0) {
+      continue;
+    }
+    require(g_.in_sphere_or_out(a, b, c, d, h) < 0, "hidden points are lifted above a tetrahedron");
+    return;
+  }
+  require(false, "hidden points lie in a tetrahedron");
 }
 
 void Space::prove_filtration() {
-  vertices_ = proved_vertices(g_, cloud_.n, built_.order.representative.data(),
-                              built_.order.representative.size());
+  places_ = vertices_ = proved_places(g_, cloud_.n, built_.representative);
+  if (g_.weighted()) {
+    vertices_ = proved_vertices(g_, cloud_.n, places_, built_.representative,
+                                built_.vertices.vertices, built_.vertices.hidden);
+    prove_vertex_values(g_, vertices_, built_.vertices.radii, edges_, f_.edge_radii.data());
+  }
   prove_dimension();
   if (!tetrahedra_.empty()) {
     prove_mesh();
   } else {
     if (!triangles_.empty()) look_flat();
-    prove_triangulation(g_, vertices_, triangles_, edges_);
+    prove_triangulation(g_, places_, vertices_, triangles_, edges_);
   }
+  const double error = g_.weighted() ? kWeightedError : kError;
   for (std::size_t t = 0; t < tetrahedra_.size(); ++t) {
-    prove_value(g_, tetrahedra_[t].data(), 4, {f_.tetrahedron_radii[t]}, kError);
+    prove_value(g_, tetrahedra_[t].data(), 4, {f_.tetrahedron_radii[t]}, error);
   }
   std::map<Row<2>, std::vector<Id>> around;
   for (std::size_t f = 0; f < triangles_.size(); ++f) {
@@ -159,10 +197,10 @@ void Space::prove_filtration() {
     for (std::size_t k = 0; k < 2; ++k) {
       const Id t = f_.triangle_tetrahedra[2 * f + k];
       if (t < 0) continue;
-      claim.inside |= g_.in_smallest(a, b, c, cell_apex(static_cast<Id>(f), t)) > 0;
+      claim.inside |= g_.in_smallest(triangles_[f].data(), 3, cell_apex(static_cast<Id>(f), t)) > 0;
       claim.least = std::min(claim.least, f_.tetrahedron_radii[static_cast<std::size_t>(t)]);
     }
-    prove_value(g_, triangles_[f].data(), 3, claim, kError);
+    prove_value(g_, triangles_[f].data(), 3, claim, error);
     for (std::size_t k = 0; k < 3; ++k)
       around[without<3>(triangles_[f], k)].push_back(static_cast<Id>(f));
   }
@@ -173,10 +211,10 @@ void Space::prove_filtration() {
     for (Id f : around[edges_[e]]) {
       const Row<3>& t = triangles_[static_cast<std::size_t>(f)];
       const Id c = t[0] != a ? t[0] : (t[1] != b ? t[1] : t[2]);
-      claim.inside |= g_.angle(a, b, c) < 0;
+      claim.inside |= g_.in_smallest(edges_[e].data(), 2, c) > 0;
       claim.least = std::min(claim.least, f_.triangle_radii[static_cast<std::size_t>(f)]);
     }
-    prove_value(g_, edges_[e].data(), 2, claim, kError);
+    prove_value(g_, edges_[e].data(), 2, claim, error);
   }
 }
 
@@ -196,16 +234,18 @@ void Space::prove_persistence() {
                 without<4>(tetrahedra_[i / 4], i % 4),
             "triangles lie opposite to the vertices of tetrahedra");
   }
+  const std::vector<double> births = births_of(cloud_.n, vertices_, built_.vertices.radii);
   const auto pairs = alphamesh::persistence3(
-      {cloud_.n, nullptr, f_.edges.data(), f_.edge_radii.data(), edges_.size(),
+      {cloud_.n, g_.weighted() ? births.data() : nullptr, f_.edges.data(), f_.edge_radii.data(), edges_.size(),
        triangle_edges.data(), f_.triangle_tetrahedra.data(), f_.triangle_radii.data(),
        triangles_.size(), f_.tetrahedron_radii.data(), tetrahedra_.size()},
       job_);
-  const std::vector<double> zero(vertices_.size(), 0.0);
+  std::vector<double> values;
+  for (Id v : vertices_) values.push_back(births[static_cast<std::size_t>(v)]);
   std::vector<Id> number(cloud_.n, -1);
   for (std::size_t i = 0; i < vertices_.size(); ++i) number[vertices_[i]] = static_cast<Id>(i);
   const auto expected =
-      reduced({{vertices_.data(), zero.data(), vertices_.size()},
+      reduced({{vertices_.data(), values.data(), vertices_.size()},
                {f_.edges.data(), f_.edge_radii.data(), edges_.size()},
                {f_.triangles.data(), f_.triangle_radii.data(), triangles_.size()},
                {f_.tetrahedra.data(), f_.tetrahedron_radii.data(), tetrahedra_.size()}});
@@ -218,39 +258,22 @@ void Space::prove_persistence() {
           "voids are paired as the matrix says");
 }
 
-// Simplices by coordinates, so that they do not depend on the numbers of rows.
-template <std::size_t K>
-std::map<std::set<Vector<double>>, double> by_place(const Buffer<Id>& rows,
-                                                    const Buffer<double>& values,
-                                                    const std::vector<double>& points) {
-  std::map<std::set<Vector<double>>, double> out;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::set<Vector<double>> corners;
-    for (std::size_t k = 0; k < K; ++k) {
-      const double* p = points.data() + 3 * rows[K * i + k];
-      corners.insert({p[0] + 0.0, p[1] + 0.0, p[2] + 0.0});
-    }
-    out.emplace(corners, values[i]);
-  }
-  return out;
-}
-
 void Space::prove_same_in_reverse() {
-  std::vector<double> reversed;
-  for (std::size_t i = cloud_.n; i-- > 0;) {
-    reversed.insert(reversed.end(), cloud_.row(i), cloud_.row(i) + 3);
-  }
+  const Cloud turned = reversed(cloud_);
   Job job(1);
-  const Built other = build(reversed, job);
+  const Built other = build(turned, job);
   const char* claim = "the same for any order of the points and any number of threads";
-  require(by_place<4>(f_.tetrahedra, f_.tetrahedron_radii, cloud_.coordinates) ==
-              by_place<4>(other.f.tetrahedra, other.f.tetrahedron_radii, reversed),
+  require(by_place<4>(cloud_, f_.tetrahedra, f_.tetrahedron_radii) ==
+              by_place<4>(turned, other.f.tetrahedra, other.f.tetrahedron_radii),
           claim);
-  require(by_place<3>(f_.triangles, f_.triangle_radii, cloud_.coordinates) ==
-              by_place<3>(other.f.triangles, other.f.triangle_radii, reversed),
+  require(by_place<3>(cloud_, f_.triangles, f_.triangle_radii) ==
+              by_place<3>(turned, other.f.triangles, other.f.triangle_radii),
           claim);
-  require(by_place<2>(f_.edges, f_.edge_radii, cloud_.coordinates) ==
-              by_place<2>(other.f.edges, other.f.edge_radii, reversed),
+  require(by_place<2>(cloud_, f_.edges, f_.edge_radii) ==
+              by_place<2>(turned, other.f.edges, other.f.edge_radii),
+          claim);
+  require(by_place<1>(cloud_, built_.vertices.vertices, built_.vertices.radii) ==
+              by_place<1>(turned, other.vertices.vertices, other.vertices.radii),
           claim);
 }
 
@@ -288,13 +311,13 @@ void Space::prove_solid() {
 void prove_space(const Cloud& cloud, const std::vector<double>& queries) {
   Job job(cloud.threads);
   const alphamesh::Recycling recycling;
-  Built built = build(cloud.coordinates, job);
+  Built built = build(cloud, job);
   Space space(cloud, queries, built, job);
   space.prove_filtration();
   space.prove_persistence();
   if (cloud.again) space.prove_same_in_reverse();
-  space.prove_triangulation_alone();
-  if (built.order.exponent != 0 || built.dimension != 3) return;
+  if (cloud.weights.empty()) space.prove_triangulation_alone();
+  if (built.exponent != 0 || built.dimension != 3) return;
   space.prove_solid();
 }
 
