@@ -258,3 +258,14 @@ def test_nothing_else_is_warned_of(tmp_path):
         for extension in FORMATS:
             FIGURE.save_outlines(tmp_path / f"a{extension}")
             am.read_geo(tmp_path / f"a{extension}")
+
+
+def test_text_that_is_none_is_told_by_the_reader(tmp_path):
+    """Found by damaging files: pandas looks at text when it is used."""
+    path = tmp_path / "a.parquet"
+    points = shapely.points([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    frame = geopandas.GeoDataFrame({"name": ["first", "second", "third"]}, geometry=points)
+    frame.to_parquet(path, compression=None)
+    path.write_bytes(path.read_bytes().replace(b"second", b"se\xffond"))
+    with pytest.raises(FileReadError, match="not a complete GeoParquet file"):
+        am.read_geo(path)

@@ -352,3 +352,22 @@ def test_voids_of_a_cage(written):
     assert found.voids.volumes[0] == pytest.approx(64 * share, abs=4 * error)
     probed = am.AlphaComplex(molecule.points, weights=molecule.weights(1.4)).union(0)
     assert len(probed.voids.volumes) == 0
+
+
+def test_damage_found_by_random_changes(written, tmp_path):
+    """Names that are no text, residues without a number."""
+    path = written(SMALL)
+    whole = path.read_bytes()
+    path.write_bytes(whole.replace(b" CA  GLY", b" C\xc1  GLY"))
+    with pytest.raises(FileReadError, match="line 2 is of an atom, and holds what is no ASCII"):
+        read_molecule(path)
+    path.write_bytes(b"REMARK   1 G\xd6TEBORG\nREMARK   2 \xc3\x96\n" + whole)
+    assert len(read_molecule(path)) == len(read_molecule(written(SMALL, "b.pdb")))
+    path.write_bytes(whole.replace(b"GLY A   1", b"GLY A    "))
+    with pytest.raises(FileReadError, match=r"N of GLY .* \(rows 0, 1, 2, 3\) has none"):
+        read_molecule(path)
+    heads = ("group_PDB", "type_symbol", "label_atom_id", "Cartn_x", "Cartn_y", "Cartn_z")
+    text = "data_x\nloop_\n" + "".join(f"_atom_site.{head}\n" for head in heads)
+    (tmp_path / "a.cif").write_bytes(text.encode() + b"ATOM C C\xe9 0 0 0\n")
+    with pytest.raises(FileReadError, match="does not number all residues"):
+        read_molecule(tmp_path / "a.cif")

@@ -30,7 +30,20 @@ def write_geoparquet(frame: Any, temporary: Path, path: Path, layer: str | None)
 def read_geoparquet(path: Path, layer: str | None) -> Any:
     """Read a GeoParquet file."""
     _require_pyarrow("Reading")
-    return geopandas("Reading GeoParquet files").read_parquet(path)
+    frame = geopandas("Reading GeoParquet files").read_parquet(path)
+    _refuse_bad_text(frame)
+    return frame
+
+
+def _refuse_bad_text(frame: Any) -> None:
+    """Raise what pyarrow raises of text that is no UTF-8; pandas looks when it is used."""
+    import pandas as pd
+    import pyarrow as pa
+
+    for number in range(frame.shape[1]):
+        column = frame.iloc[:, number]
+        if isinstance(column.dtype, pd.StringDtype):
+            pa.array(column.array).validate(full=True)
 
 
 def _require_pyarrow(doing: str) -> None:

@@ -169,4 +169,6 @@ def _damaged(source: Source, name: str, error: BaseException) -> FileReadError:
 
 def _columns(source: Source, wanted: Wanted, names: list[str], table: Any) -> FloatArray:
     chosen = choose_columns(source, wanted, names, len(names))
-    return stack([exact_floats(source, np.asarray(table[names[k]]), names[k]) for k in chosen])
+    with np.errstate(over="ignore", invalid="ignore"):  # of scales that no scanner has
+        columns = [(np.asarray(table[names[k]]), names[k]) for k in chosen]
+    return stack([exact_floats(source, column, name) for column, name in columns])

@@ -201,7 +201,7 @@ def _structure(source: Source, file_format: str | None) -> Any:
         raise MissingLibraryError.of("gemmi", "molecules", "reading molecules") from error
     kind = _format(source, file_format)
     with source.open() as file:
-        data = file.read()
+        data = _plain(source, file.read(), kind)
     try:
         if kind == "pdb":
             found: Any = gemmi.read_pdb_string(data)
@@ -217,6 +217,25 @@ def _structure(source: Source, file_format: str | None) -> Any:
             "another format than it has, pass file_format="
         )
     return found
+
+
+def _plain(source: Source, data: bytes, kind: str) -> bytes:
+    """Return a file with what is no text replaced, which may stand in remarks alone.
+
+    gemmi tells of it when a name is asked for.
+    """
+    if data.isascii():
+        return data
+    if kind == "mmcif":
+        return data.decode("utf-8", errors="replace").encode()
+    for number, line in enumerate(data.splitlines(), 1):
+        if line[:6] in (b"ATOM  ", b"HETATM") and not line.isascii():
+            raise source.failure(
+                f"is damaged: line {number} is of an atom, and holds what is no ASCII; copy or "
+                "download it again"
+            )
+    # Columns are counted in bytes.
+    return data.decode("ascii", errors="replace").replace("\ufffd", "?").encode()
 
 
 _NAMES = {"pdb": "PDB", "mmcif": "mmCIF"}
@@ -343,13 +362,20 @@ def _points(source: Source, atoms: list[Atom]) -> FloatArray:
 
 def _molecule(source: Source, atoms: list[Atom], radii: Mapping[str, float] | None) -> Molecule:
     elements = np.array([_element(residue, atom) for _, residue, atom in atoms])
+    numbers = [residue.seqid.num for _, residue, _ in atoms]
+    bad = [row for row, number in enumerate(numbers) if number is None]
+    if bad:
+        raise source.failure(
+            f"does not number all residues: {_labels(atoms)[bad[0]]} "
+            f"({rows_text(np.array(bad[:5]), total=len(bad))}) has none; number them"
+        )
     return Molecule(
         read_only(np.ascontiguousarray(_points(source, atoms).T)),
         read_only(elements),
         radii_of(elements, _labels(atoms), radii),
         read_only(np.array([atom.name for _, _, atom in atoms])),
         read_only(np.array([residue.name for _, residue, _ in atoms])),
-        read_only(np.array([residue.seqid.num for _, residue, _ in atoms], dtype=np.int32)),
+        read_only(np.array(numbers, dtype=np.int32)),
         read_only(np.array([residue.seqid.icode.strip() for _, residue, _ in atoms])),
         read_only(np.array([chain.name.strip() for chain, _, _ in atoms])),
     )
