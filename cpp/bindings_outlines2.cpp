@@ -53,14 +53,14 @@ nb::tuple segment_tree2_py(const Points2& points, const Ids& edges, int threads)
   SegmentTree2 tree;
   run_watched(job, k, nb::none(),
               [&] { tree = segment_tree2(points.data(), edges.data(), k, job); });
-  return nb::make_tuple(quads_array(std::move(tree.segments)), array(std::move(tree.place)),
+  return nb::make_tuple(quads_array(std::move(tree.items)), array(std::move(tree.place)),
                         quads_array(std::move(tree.boxes)));
 }
 
 nb::tuple nearest2_py(const Quads& segments, const Ids1& place, const Quads& boxes,
                       const Points2& queries, int threads, const nb::object& progress) {
   if (segments.shape(0) == 0 || place.shape(0) != segments.shape(0) ||
-      boxes.shape(0) != box_count2(segments.shape(0))) {
+      boxes.shape(0) != box_count(segments.shape(0))) {
     throw std::invalid_argument("not the arrays of one tree of segments");
   }
   const SegmentTreeView2 tree{reinterpret_cast<const Segment2*>(segments.data()), place.data(),

@@ -92,14 +92,14 @@ nb::tuple triangle_tree3_py(const Points3& points, const Ids& triangles, int thr
   TriangleTree3 tree;
   run_watched(job, k, nb::none(),
               [&] { tree = triangle_tree3(points.data(), triangles.data(), k, job); });
-  return nb::make_tuple(rows_array(std::move(tree.triangles)), array(std::move(tree.place)),
+  return nb::make_tuple(rows_array(std::move(tree.items)), array(std::move(tree.place)),
                         rows_array(std::move(tree.boxes)));
 }
 
 nb::tuple nearest3_py(const Corners3& triangles, const Ids1& place, const Boxes3& boxes,
                       const Points3& queries, int threads) {
   if (triangles.shape(0) == 0 || place.shape(0) != triangles.shape(0) ||
-      boxes.shape(0) != box_count3(triangles.shape(0))) {
+      boxes.shape(0) != box_count(triangles.shape(0))) {
     throw std::invalid_argument("not the arrays of one tree of triangles");
   }
   const TriangleTreeView3 tree{reinterpret_cast<const Triangle3*>(triangles.data()), place.data(),

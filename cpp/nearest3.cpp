@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
-#include "radix_sort.hpp"
 #include "spatial_sort.hpp"
 
 namespace alphamesh {
 namespace {
 
-constexpr std::size_t kFan = 8;
-constexpr std::size_t kMostLevels = 12;  // 8^12 triangles
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Vector = Vector3<double>;
@@ -25,52 +21,9 @@ Box3 joined(const Box3& a, const Box3& b) {
 
 Box3 box_of(const Triangle3& t) { return joined(joined({t.a, t.a}, {t.b, t.b}), {t.c, t.c}); }
 
-// A corner of its box is as good as its middle, and needs no rounding.
-Point3 place_of(const Triangle3& t) { return box_of(t).low; }
-
-// Where each level of boxes begins.
-struct Levels {
-  std::size_t first[kMostLevels + 1], count = 0;
-
-  explicit Levels(std::size_t k) {
-    first[0] = 0;
-    do {
-      k = (k + kFan - 1) / kFan;
-      first[count + 1] = first[count] + k;
-      ++count;
-    } while (k > 1);
-  }
-  std::size_t size(std::size_t level) const { return first[level + 1] - first[level]; }
-};
-
-// The numbers 0 to n - 1 in Hilbert order of the points.
-template <class PointOf>
-Buffer<std::uint64_t> along_curve(std::size_t n, PointOf&& point_of, Job& job) {
-  Buffer<std::uint64_t> words(n);
-  if (n == 0) return words;
-  Box3 box{point_of(0), point_of(0)};
-  for (std::size_t i = 1; i < n; ++i) box = joined(box, {point_of(i), point_of(i)});
-  constexpr double kCells = (1 << Space::kBits) - 1;
-  const Vector size = box.high - box.low;
-  const double width = std::max(size.x, std::max(size.y, size.z));
-  const double cells = width > 0.0 ? kCells / width : 0.0;
-  const Parts parts(n, job);
-  job.run(parts.count(), [&](std::size_t part) {
-    for (std::size_t i = parts.begin(part); i < parts.end(part); ++i) {
-      const Vector p = point_of(i) - box.low;
-      const std::uint32_t cell[3] = {static_cast<std::uint32_t>(std::min(kCells, p.x * cells)),
-                                     static_cast<std::uint32_t>(std::min(kCells, p.y * cells)),
-                                     static_cast<std::uint32_t>(std::min(kCells, p.z * cells))};
-      words[i] = std::uint64_t{Space::code(cell, Space::kBits)} << 32 | i;
-    }
-  });
-  radix_sort(words, 3 * Space::kBits, job);
-  return words;
-}
-
 double squared(const Vector& v) { return dot(v, v); }
 
-double squared(Point3 p, const Box3& b) {
+inline double squared(const Point3& p, const Box3& b) {
   const double x = std::max(0.0, std::max(b.low.x - p.x, p.x - b.high.x));
   const double y = std::max(0.0, std::max(b.low.y - p.y, p.y - b.high.y));
   const double z = std::max(0.0, std::max(b.low.z - p.z, p.z - b.high.z));
@@ -102,7 +55,7 @@ bool above(Point3 p, const Triangle3& t, const Vector& n) {
          dot(n, cross(t.a - t.c, c)) >= 0.0 && squared(n) > 0.0;
 }
 
-double squared(Point3 p, const Triangle3& t) {
+double squared(const Point3& p, const Triangle3& t) {
   const Vector n = normal(t);
   if (above(p, t, n)) {
     const double height = dot(n, p - t.a);
@@ -151,77 +104,28 @@ Point3 nearest_on(const Triangle3& t, Point3 p, double& distance) {
   return best;
 }
 
-// The best triangle so far; of equally near ones, the first of the input.
-struct Best {
-  double sq = kInfinity;
-  std::int32_t place = -1;
-  std::size_t at = 0;
-};
+std::array<double, 3> place(Point3 p) { return {p.x, p.y, p.z}; }
 
-class Search {
- public:
-  explicit Search(const TriangleTreeView3& tree) : tree_(tree), levels_(tree.size) {}
+struct Triangles {
+  using Point = Point3;
+  using Item = Triangle3;
+  using Box = Box3;
 
-  // `guess` is a triangle that may be near, to begin with.
-  Best operator()(Point3 p, std::size_t guess) {
-    Best best;
-    try_triangle(p, guess, best);
-    open_.clear();
-    open_.push_back({levels_.count - 1, 0, 0.0});
-    while (!open_.empty()) {
-      const Open node = open_.back();
-      open_.pop_back();
-      if (node.sq > best.sq) continue;
-      const std::size_t begin = kFan * node.index;
-      if (node.level == 0) {
-        for (std::size_t i = begin; i < std::min(begin + kFan, tree_.size); ++i) {
-          if (squared(p, box_of(tree_.triangles[i])) <= best.sq) try_triangle(p, i, best);
-        }
-      } else {
-        push_children(p, node.level - 1, begin, best);
-      }
-    }
-    return best;
+  static Box box_of(const Item& item) { return alphamesh::box_of(item); }
+  static Box joined(const Box& a, const Box& b) { return alphamesh::joined(a, b); }
+  template <class T>
+  static double squared(const Point& p, const T& what) {
+    return alphamesh::squared(p, what);
   }
-
- private:
-  struct Open {
-    std::size_t level, index;
-    double sq;
-  };
-
-  void try_triangle(Point3 p, std::size_t i, Best& best) const {
-    const double sq = squared(p, tree_.triangles[i]);
-    if (sq < best.sq || (sq == best.sq && tree_.place[i] < best.place)) {
-      best = {sq, tree_.place[i], i};
-    }
+  static bool near(const Point& p, const Item& t, double sq) {
+    return alphamesh::squared(p, alphamesh::box_of(t)) <= sq;
   }
-
-  // The nearest child goes last, to be opened first.
-  void push_children(Point3 p, std::size_t level, std::size_t begin, const Best& best) {
-    const std::size_t bottom = open_.size();
-    const std::size_t end = std::min(begin + kFan, levels_.size(level));
-    for (std::size_t i = begin; i < end; ++i) {
-      const double sq = squared(p, tree_.boxes[levels_.first[level] + i]);
-      if (sq > best.sq) continue;
-      open_.push_back({level, i, sq});
-      for (std::size_t k = open_.size() - 1; k > bottom && open_[k - 1].sq < open_[k].sq; --k) {
-        std::swap(open_[k - 1], open_[k]);
-      }
-    }
+  static Point nearest_on(const Item& item, const Point& p, double& distance) {
+    return alphamesh::nearest_on(item, p, distance);
   }
-
-  const TriangleTreeView3& tree_;
-  Levels levels_;
-  std::vector<Open> open_;
 };
 
 }  // namespace
-
-std::size_t box_count3(std::size_t k) {
-  const Levels levels(k);
-  return levels.first[levels.count];
-}
 
 TriangleTree3 triangle_tree3(const double* points, const std::int32_t* corners, std::size_t k,
                              Job& job) {
@@ -232,52 +136,17 @@ TriangleTree3 triangle_tree3(const double* points, const std::int32_t* corners, 
   auto triangle = [&](std::size_t i) {
     return Triangle3{point(corners[3 * i]), point(corners[3 * i + 1]), point(corners[3 * i + 2])};
   };
-  const Buffer<std::uint64_t> order =
-      along_curve(k, [&](std::size_t i) { return place_of(triangle(i)); }, job);
-  TriangleTree3 tree{Buffer<Triangle3>(k), Buffer<std::int32_t>(k), Buffer<Box3>(box_count3(k))};
-  const Levels levels(k);
-  const Parts parts(levels.size(0), job);
-  job.run(parts.count(), [&](std::size_t part) {
-    for (std::size_t node = parts.begin(part); node < parts.end(part); ++node) {
-      for (std::size_t i = kFan * node; i < std::min(kFan * (node + 1), k); ++i) {
-        tree.place[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(order[i]));
-        tree.triangles[i] = triangle(static_cast<std::size_t>(tree.place[i]));
-        const Box3 box = box_of(tree.triangles[i]);
-        tree.boxes[node] = i == kFan * node ? box : joined(tree.boxes[node], box);
-      }
-    }
-  });
-  for (std::size_t level = 1; level < levels.count; ++level) {
-    const Box3* below = tree.boxes.data() + levels.first[level - 1];
-    Box3* here = tree.boxes.data() + levels.first[level];
-    for (std::size_t i = 0; i < levels.size(level - 1); ++i) {
-      here[i / kFan] = i % kFan == 0 ? below[i] : joined(here[i / kFan], below[i]);
-    }
-  }
-  return tree;
+  const auto order =
+      along_curve<Space>(k, [&](std::size_t i) { return place(box_of(triangle(i)).low); }, job);
+  return box_tree<Triangles>(k, order, triangle, job);
 }
 
 Nearest3 nearest3(const TriangleTreeView3& tree, const double* queries, std::size_t q, Job& job) {
   auto query = [&](std::size_t i) {
     return Point3{queries[3 * i], queries[3 * i + 1], queries[3 * i + 2]};
   };
-  const Buffer<std::uint64_t> order = along_curve(q, query, job);
-  Nearest3 out{Buffer<std::int32_t>(q), Buffer<Point3>(q), Buffer<double>(q)};
-  const Parts parts(q, job, 512);
-  job.run(parts.count(), [&](std::size_t part) {
-    Search search(tree);
-    std::size_t guess = 0;
-    for (std::size_t k = parts.begin(part); k < parts.end(part); ++k) {
-      if ((k & 0x3ff) == 0) job.poll();
-      const std::size_t i = static_cast<std::uint32_t>(order[k]);
-      const Best best = search(query(i), guess);
-      guess = best.at;
-      out.place[i] = best.place;
-      out.point[i] = nearest_on(tree.triangles[best.at], query(i), out.distance[i]);
-    }
-    job.advance(1.0 / static_cast<double>(parts.count()));
-  });
-  return out;
+  const auto order = along_curve<Space>(q, [&](std::size_t i) { return place(query(i)); }, job);
+  return nearest_items<Triangles>(tree, q, order, query, 512, job);
 }
 
 }  // namespace alphamesh

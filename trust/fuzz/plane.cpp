@@ -353,7 +353,7 @@ void Plane::prove_nearest() {
   if (edges_.empty()) return;
   const auto tree =
       alphamesh::segment_tree2(cloud_.coordinates.data(), f_.edges.data(), edges_.size(), job_);
-  require(tree.boxes.size() == alphamesh::box_count2(edges_.size()), "boxes are counted");
+  require(tree.boxes.size() == alphamesh::box_count(edges_.size()), "boxes are counted");
   const std::size_t m = queries_.size() / 2;
   const auto found = alphamesh::nearest2(
       {tree.segments.data(), tree.place.data(), edges_.size(), tree.boxes.data()}, queries_.data(),

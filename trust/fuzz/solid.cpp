@@ -158,7 +158,7 @@ void Solid::prove_nearest() {
   if (!(size > 0x1p-60L && size < 0x1p60L)) return;
   const auto tree = alphamesh::triangle_tree3(s_.cloud.coordinates.data(), s_.f.triangles.data(),
                                               s_.triangles.size(), job_);
-  require(tree.boxes.size() == alphamesh::box_count3(s_.triangles.size()), "boxes are counted");
+  require(tree.boxes.size() == alphamesh::box_count(s_.triangles.size()), "boxes are counted");
   const std::size_t m = s_.queries.size() / 3;
   const auto found = alphamesh::nearest3(
       {tree.triangles.data(), tree.place.data(), s_.triangles.size(), tree.boxes.data()},
