@@ -27,10 +27,10 @@ std::vector<Row<K>> rows_of(const Id* rows, std::size_t count) {
 inline std::vector<Id> proved_places(const Geometry& g, std::size_t n,
                                      const alphamesh::Buffer<Id>& representative) {
   require(representative.size() == 0 || representative.size() == n, "one for each point");
-  std::map<Vector<double>, Id> best;
+  std::map<Vector<long double>, Id> best;
   const auto place = [&](Id i) {
-    Vector<double> p = g.plain(i);
-    for (double& v : p) v += 0.0;  // no negative zeros
+    Vector<long double> p = g.plain(i);
+    for (long double& v : p) v += 0.0L;  // no negative zeros
     return p;
   };
   for (Id i = 0; i < static_cast<Id>(n); ++i) {
