@@ -14,6 +14,7 @@
 #include "proof.hpp"
 #include "regular2.hpp"
 #include "restricted2.hpp"
+#include "union.hpp"
 #include "voronoi2.hpp"
 
 namespace trust {
@@ -78,6 +79,7 @@ class Plane {
   void prove_triangulation_alone();
   void prove_hull();
   // Only where coordinates need no scaling.
+  void prove_union();
   void prove_cells();
   void prove_outlines();
   void prove_location();
@@ -186,6 +188,13 @@ void Plane::prove_same_in_reverse() {
   require(by_place<1>(cloud_, built_.vertices, built_.vertex_radii) ==
               by_place<1>(turned, other.vertices, other.vertex_radii),
           claim);
+}
+
+void Plane::prove_union() {
+  if (vertices_.empty() || !in_range(cloud_, radius_)) return;
+  const std::vector<double> births = births_of(cloud_.n, vertices_, built_.vertex_radii);
+  const Measured found = union_of({cloud_, births, &f_, nullptr}, radius_, job_);
+  trust::prove_union(cloud_, radius_, found);
 }
 
 void Plane::prove_triangulation_alone() {
@@ -410,6 +419,7 @@ void prove_plane(const Cloud& cloud, const std::vector<double>& queries) {
     plane.prove_hull();
   }
   if (built.exponent != 0) return;
+  plane.prove_union();
   plane.prove_cells();
   plane.prove_outlines();
   plane.prove_voronoi();

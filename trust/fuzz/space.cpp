@@ -11,6 +11,7 @@
 #include "sheet.hpp"
 #include "solid.hpp"
 #include "span3.hpp"
+#include "union.hpp"
 
 namespace trust {
 namespace {
@@ -75,6 +76,7 @@ class Space {
   void prove_same_in_reverse();
   void prove_triangulation_alone();
   // Only where coordinates need no scaling.
+  void prove_union();
   void prove_solid();
 
  private:
@@ -301,6 +303,20 @@ void Space::prove_triangulation_alone() {
   require(sorted == expected, "the triangulation is that of the filtration");
 }
 
+void Space::prove_union() {
+  std::vector<double> radii(f_.triangle_radii.data(),
+                            f_.triangle_radii.data() + f_.triangle_radii.size());
+  radii.insert(radii.end(), f_.edge_radii.data(), f_.edge_radii.data() + f_.edge_radii.size());
+  radii.insert(radii.end(), f_.tetrahedron_radii.data(),
+               f_.tetrahedron_radii.data() + f_.tetrahedron_radii.size());
+  std::sort(radii.begin(), radii.end());
+  const double radius = chosen_radius(radii, cloud_.choice);
+  if (vertices_.empty() || !in_range(cloud_, radius)) return;
+  const std::vector<double> births = births_of(cloud_.n, vertices_, built_.vertices.radii);
+  const Measured found = union_of({cloud_, births, nullptr, &f_}, radius, job_);
+  trust::prove_union(cloud_, radius, found);
+}
+
 void Space::prove_solid() {
   trust::prove_solid({cloud_, queries_, f_, tetrahedra_, triangles_, tetrahedron_triangles_, g_},
                      job_);
@@ -317,7 +333,9 @@ void prove_space(const Cloud& cloud, const std::vector<double>& queries) {
   space.prove_persistence();
   if (cloud.again) space.prove_same_in_reverse();
   if (cloud.weights.empty()) space.prove_triangulation_alone();
-  if (built.exponent != 0 || built.dimension != 3) return;
+  if (built.exponent != 0) return;
+  space.prove_union();
+  if (built.dimension != 3) return;
   space.prove_solid();
 }
 
