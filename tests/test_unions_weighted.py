@@ -134,3 +134,12 @@ def test_parts_of_discs_at_a_triangle_of_almost_no_height():
     built = am.filtration(points, weights=weights)
     found = union_of_balls(built, float(built.radii[2][0]))
     assert found.disc_areas.sum() == pytest.approx(found.area, rel=1e-12, abs=0)
+
+
+def test_a_ball_that_is_not_there_for_its_weight_changes_nothing():
+    """Found by fuzzing: what its weight rounds was taken for what others' values do."""
+    points = np.array([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3.0], [5, 5, 5]])
+    alone = am.AlphaComplex(points[:4], weights=[0, 1, 0, 0]).union(1.75)
+    found = am.AlphaComplex(points, weights=[0, 1, 0, 0, -1e30]).union(1.75)
+    assert found.volume == pytest.approx(alone.volume, rel=1e-14)
+    assert found.ball_volumes[:4] == pytest.approx(alone.ball_volumes, rel=1e-14)

@@ -27,7 +27,7 @@ long double square_of(const Cloud& cloud, std::size_t i, double radius) {
 // which one is off by rounding may be in the wrong order.
 double settled(const Cloud& cloud, std::vector<double> values, double radius) {
   long double heaviest = 0;
-  for (double w : cloud.weights) heaviest = std::max<long double>(heaviest, std::fabs(w));
+  for (double w : cloud.weights) heaviest = std::max<long double>(heaviest, w);
   std::sort(values.begin(), values.end());
   double last = radius;
   for (double v : values) {
