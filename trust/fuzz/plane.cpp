@@ -28,6 +28,7 @@ using alphamesh::Point2;
 constexpr double kError = 1e-14;
 
 struct Built {
+  std::size_t n = 0;
   int dimension = -1, exponent = 0;
   Buffer<Id> representative;
   alphamesh::Filtration2 f;
@@ -37,6 +38,7 @@ struct Built {
 
 Built build(const Cloud& cloud, Job& job) {
   Built out;
+  out.n = cloud.n;
   const double* weights = cloud.weights.empty() ? nullptr : cloud.weights.data();
   auto order = alphamesh::spatial_order2(cloud.coordinates.data(), cloud.n, job, weights);
   out.exponent = order.exponent;
@@ -55,6 +57,11 @@ Built build(const Cloud& cloud, Job& job) {
   out.vertex_radii = std::move(regular.vertex_radii);
   out.hidden = std::move(regular.hidden);
   return out;
+}
+
+// When each row joins the complex.
+std::vector<double> births_of(const Built& built) {
+  return trust::births_of(built.n, built.representative, built.vertices, built.vertex_radii);
 }
 
 class Plane {
@@ -155,7 +162,7 @@ void Plane::prove_filtration() {
 }
 
 void Plane::prove_persistence() {
-  const std::vector<double> births = births_of(cloud_.n, vertices_, built_.vertex_radii);
+  const std::vector<double> births = births_of(built_);
   const auto pairs =
       alphamesh::persistence2(view_, g_.weighted() ? births.data() : nullptr,
                               f_.triangle_radii.data(), f_.edge_radii.data(), job_);
@@ -192,9 +199,14 @@ void Plane::prove_same_in_reverse() {
 
 void Plane::prove_union() {
   if (vertices_.empty() || !in_range(cloud_, radius_)) return;
-  const std::vector<double> births = births_of(cloud_.n, vertices_, built_.vertex_radii);
+  const std::vector<double> births = births_of(built_);
   const Measured found = union_of({cloud_, births, &f_, nullptr}, radius_, job_);
   trust::prove_union(cloud_, radius_, found);
+  if (!cloud_.again) return;
+  const Cloud turned = reversed(cloud_);
+  const Built other = build(turned, job_);
+  const std::vector<double> others = births_of(other);
+  prove_same_union(found, union_of({turned, others, &other.f, nullptr}, radius_, job_));
 }
 
 void Plane::prove_triangulation_alone() {
@@ -253,7 +265,7 @@ void Plane::prove_hull() {
 void Plane::prove_cells() {
   const auto has_triangle = within(f_.triangle_radii), has_edge = within(f_.edge_radii);
   std::vector<char> active;
-  for (double birth : births_of(cloud_.n, vertices_, built_.vertex_radii)) {
+  for (double birth : births_of(built_)) {
     active.push_back(g_.weighted() ? birth <= radius_ : birth == 0.0);
   }
   const auto flags = [](const std::vector<char>& v) {

@@ -147,12 +147,18 @@ inline void prove_vertex_values(const Geometry& g, const std::vector<Id>& vertic
   for (const auto& [v, claim] : claims) prove_value(g, &v, 1, claim, 1e-15);
 }
 
-// When each row joins the complex: never if it is hidden.
-inline std::vector<double> births_of(std::size_t n, const std::vector<Id>& vertices,
+// When each row joins the complex, never if it is hidden. Without weights, there are no rows
+// of vertices: all that stand for themselves are there from the beginning.
+inline std::vector<double> births_of(std::size_t n, const alphamesh::Buffer<Id>& representative,
+                                     const alphamesh::Buffer<Id>& vertices,
                                      const alphamesh::Buffer<double>& radii) {
   std::vector<double> births(n, HUGE_VAL);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    births[static_cast<std::size_t>(vertices[i])] = radii.size() == 0 ? 0.0 : radii[i];
+    births[static_cast<std::size_t>(vertices[i])] = radii[i];
+  }
+  for (std::size_t i = 0; i < n && vertices.size() == 0; ++i) {
+    const bool own = representative.size() == 0 || representative[i] == static_cast<Id>(i);
+    if (own) births[i] = 0.0;
   }
   return births;
 }

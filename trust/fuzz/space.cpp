@@ -22,6 +22,7 @@ using alphamesh::Job;
 constexpr double kError = 2e-13, kWeightedError = 5e-13;
 
 struct Built {
+  std::size_t n = 0;
   int dimension = -1, exponent = 0;
   Buffer<Id> representative;
   alphamesh::Filtration3 f;
@@ -42,6 +43,7 @@ alphamesh::Filtration3 filtration(const alphamesh::SpatialOrder3& order, int* di
 
 Built build(const Cloud& cloud, Job& job) {
   Built out;
+  out.n = cloud.n;
   const double* weights = cloud.weights.empty() ? nullptr : cloud.weights.data();
   auto order = alphamesh::spatial_order3(cloud.coordinates.data(), cloud.n, job, weights);
   out.exponent = order.exponent;
@@ -56,6 +58,11 @@ Built build(const Cloud& cloud, Job& job) {
   }
   out.representative = std::move(order.representative);
   return out;
+}
+
+// When each row joins the complex.
+std::vector<double> births_of(const Built& built) {
+  return trust::births_of(built.n, built.representative, built.vertices.vertices, built.vertices.radii);
 }
 
 class Space {
@@ -236,7 +243,7 @@ void Space::prove_persistence() {
                 without<4>(tetrahedra_[i / 4], i % 4),
             "triangles lie opposite to the vertices of tetrahedra");
   }
-  const std::vector<double> births = births_of(cloud_.n, vertices_, built_.vertices.radii);
+  const std::vector<double> births = births_of(built_);
   const auto pairs = alphamesh::persistence3(
       {cloud_.n, g_.weighted() ? births.data() : nullptr, f_.edges.data(), f_.edge_radii.data(), edges_.size(),
        triangle_edges.data(), f_.triangle_tetrahedra.data(), f_.triangle_radii.data(),
@@ -312,9 +319,14 @@ void Space::prove_union() {
   std::sort(radii.begin(), radii.end());
   const double radius = chosen_radius(radii, cloud_.choice);
   if (vertices_.empty() || !in_range(cloud_, radius)) return;
-  const std::vector<double> births = births_of(cloud_.n, vertices_, built_.vertices.radii);
+  const std::vector<double> births = births_of(built_);
   const Measured found = union_of({cloud_, births, nullptr, &f_}, radius, job_);
   trust::prove_union(cloud_, radius, found);
+  if (!cloud_.again) return;
+  const Cloud turned = reversed(cloud_);
+  const Built other = build(turned, job_);
+  const std::vector<double> others = births_of(other);
+  prove_same_union(found, union_of({turned, others, nullptr, &other.f}, radius, job_));
 }
 
 void Space::prove_solid() {
