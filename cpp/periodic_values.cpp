@@ -36,7 +36,7 @@ class Measurer {
   template <int K>
   Measure measure(const Layer& layer, std::size_t i) const;
   double vertex(Id row) const {
-    return box_.weight == nullptr ? 0.0 : radius_of(-box_.weight[row]);
+    return box_.weight == nullptr ? 0.0 : radius_of(-box_.weight[row], 0);
   }
 
  private:
@@ -62,8 +62,10 @@ class Measurer {
     if (box_.weight == nullptr) return {0.0, 0.0};
     return two_diff(box_.weight[from.row], box_.weight[to.row]);
   }
-  double radius_of(double square) const {
-    return unscale_ * std::copysign(std::sqrt(std::fabs(square)), square);
+  // Of a power value that is to be multiplied by 4^exponent.
+  double radius_of(double square, int exponent) const {
+    const double root = std::copysign(std::sqrt(std::fabs(square)), square);
+    return unscale_ * (PowerOfTwo(exponent) * root);
   }
   // Positions along the lexicographic order, so that a value does not depend on the rows.
   template <int K>
@@ -71,7 +73,7 @@ class Measurer {
   template <int K>
   Measure measure_carefully(const Corner* c) const;
   template <int K>
-  double exact_square(const Corner* c) const;
+  double exact_square(const Corner* c, int exponent) const;
   template <int K>
   int exact_side(const Corner* c, int k) const;
   Vector arrow(const Corner& from, const Corner& to) const {
@@ -156,7 +158,8 @@ bool Measurer::measure_plainly<3>(const Corner* c, Measure* out) const {
   const Vector n{a2 * bd.x + b2 * da.x + d2 * ab.x, a2 * bd.y + b2 * da.y + d2 * ab.y,
                  a2 * bd.z + b2 * da.z + d2 * ab.z};
   const double most = std::max(a2, std::max(b2, d2));
-  const double radius_sq = square(n) * (0.25 / (w * w)), flat = 1.0 / 128.0;
+  const double inverse = 0.5 / w, flat = 1.0 / 128.0;
+  const double radius_sq = square({n.x * inverse, n.y * inverse, n.z * inverse});
   if (!(w * w > flat * flat * product_sq && radius_sq > flat * flat * most && radius_sq < kLarge &&
         radius_sq > kSmall && product_sq < kLarge && product_sq > kSmall)) {
     return false;
@@ -173,6 +176,21 @@ bool Measurer::measure_plainly<3>(const Corner* c, Measure* out) const {
   return true;
 }
 
+// What to take out, as a power of two, so that products of eight lengths stay within range. Roots
+// of the changes of weights may be longer than all arms, by a factor of 2^270.
+template <int K>
+int exponent_of(const Dd (*arm)[3], const Dd* change) {
+  double length = 0.0, most = 0.0;
+  for (int i = 0; i < K; ++i) {
+    for (int k = 0; k < 3; ++k) length = std::max(length, std::fabs(arm[i][k].h));
+    most = std::max(most, std::fabs(change[i].h));
+  }
+  const int arms = std::ilogb(length);  // no two sites are at one place
+  return most == 0.0 ? arms : std::max(arms, std::min(std::ilogb(most) / 2, arms + 100));
+}
+
+Dd scaled(const PowerOfTwo& factor, Dd v) { return {factor * v.h, factor * v.l}; }
+
 template <int K>
 Measure Measurer::measure_carefully(const Corner* c) const {
   Dd arm[K][3], changes[K];
@@ -181,11 +199,18 @@ Measure Measurer::measure_carefully(const Corner* c) const {
     for (int k = 0; k < 3; ++k) arm[i][k] = difference(c[i + 1], c[0], k);
     changes[i] = change(c[0], c[i + 1]);
   }
+  const int exponent = exponent_of<K>(arm, changes);
+  const PowerOfTwo factor(-exponent), factor_sq(-2 * exponent);
+  for (int i = 0; i < K; ++i) {
+    for (int k = 0; k < 3; ++k) arm[i][k] = scaled(factor, arm[i][k]);
+    changes[i] = scaled(factor_sq, changes[i]);
+  }
   const Orthosphere<K, Dd> sphere(arm, changes);
   for (int i = 0; i < K; ++i) {
-    const double weights = box_.weight == nullptr ? 0.0
-                                                  : std::fabs(box_.weight[c[0].row]) +
-                                                        std::fabs(box_.weight[c[i + 1].row]);
+    const double weights =
+        box_.weight == nullptr ? 0.0
+                               : factor_sq * (std::fabs(box_.weight[c[0].row]) +
+                                              std::fabs(box_.weight[c[i + 1].row]));
     most = std::max(most, sphere.gram[i][i].h);
     highest = std::max(highest, sphere.gram[i][i].h + weights);
     diagonal *= sphere.gram[i][i].h;
@@ -217,33 +242,35 @@ Measure Measurer::measure_carefully(const Corner* c) const {
     terms += std::fabs(term.h);
   }
   if (box_.weight != nullptr) {
-    const Dd own = sphere.determinant * Dd{-4.0 * box_.weight[c[0].row], 0.0};
+    const Dd own = sphere.determinant * Dd{factor_sq * (-4.0 * box_.weight[c[0].row]), 0.0};
     sum = sum + own;
     terms += std::fabs(own.h);
   }
   double part_terms = power * (most + highest) * highest;
   if (determinant > 0x1p-40 * diagonal && std::fabs(sum.h) > 0x1p-40 * terms &&
       terms > 0x1p-40 * part_terms) {
-    out.radius = radius_of(0.25 * (sum.h / determinant));
+    out.radius = radius_of(0.25 * (sum.h / determinant), exponent);
   } else {
-    out.radius = radius_of(exact_square<K>(c));
+    out.radius = radius_of(exact_square<K>(c, exponent), exponent);
   }
   return out;
 }
 
-// The power value, from exact numerator and denominator.
+// The power value over 4^exponent, from exact numerator and denominator.
 template <int K>
-double Measurer::exact_square(const Corner* c) const {
+double Measurer::exact_square(const Corner* c, int exponent) const {
+  const Big factor(Dd{std::ldexp(1.0, -exponent), 0.0});
   Big arm[K][3], changes[K];
   for (int i = 0; i < K; ++i) {
-    for (int k = 0; k < 3; ++k) arm[i][k] = exact_difference(c[i + 1], c[0], k);
-    changes[i] = Big(change(c[0], c[i + 1]));
+    for (int k = 0; k < 3; ++k) arm[i][k] = factor * exact_difference(c[i + 1], c[0], k);
+    changes[i] = factor * (factor * Big(change(c[0], c[i + 1])));
   }
   const Orthosphere<K, Big> sphere(arm, changes);
   Big sum;
   for (int i = 0; i < K; ++i) sum = sum + sphere.part[i + 1] * sphere.lift[i];
   if (box_.weight != nullptr) {
-    sum = sum + sphere.determinant * Big(Dd{-4.0 * box_.weight[c[0].row], 0.0});
+    sum = sum + sphere.determinant *
+                    (factor * (factor * Big(Dd{-4.0 * box_.weight[c[0].row], 0.0})));
   }
   return 0.25 * (sum.estimate() / sphere.determinant.estimate());
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact.hpp"
 #include "predicates2.hpp"
 #include "waves.hpp"
 
@@ -18,6 +19,18 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr int kOther[3][2] = {{1, 2}, {0, 2}, {0, 1}};
 
 std::size_t at(Id i) { return static_cast<std::size_t>(i); }
+
+// From one point to another, exactly.
+struct Side {
+  Dd x, y;
+};
+
+Side side(Point2 to, Point2 from) { return {two_diff(to.x, from.x), two_diff(to.y, from.y)}; }
+Dd dot(const Side& a, const Side& b) { return a.x * b.x + a.y * b.y; }
+
+// Below this share of its greatest possible value, the area of a triangle is so small that
+// what is divided by it needs twice the digits.
+constexpr double kThin = 1.0 / 128.0;
 
 // Two discs: the distances of their radical line from the two centres, half their common
 // chord, and half the angle that each centre sees it under.
@@ -190,6 +203,15 @@ TriangleRecord Union2::triangle(std::size_t t) const {
       const double lean_jk = weight(corner[j]) - weight(corner[k]);
       off_ij += (at_j * lean_ik + across * lean_jk) / sq_ij;
       off_ik += (at_k * lean_ij - across * lean_jk) / sq_ik;
+    }
+    if (view_.weights != nullptr && !(size > kThin * std::sqrt(sq_ij * sq_ik))) {
+      const Side u = side(p[j], p[i]), v = side(p[k], p[i]), w = side(p[k], p[j]);
+      const Dd at_k = dot(v, w), at_j = dot(u, w), at_i = dot(u, v);
+      const Dd ij = two_diff(weight(corner[i]), weight(corner[j]));
+      const Dd ik = two_diff(weight(corner[i]), weight(corner[k]));
+      const Dd jk = two_diff(weight(corner[j]), weight(corner[k]));
+      off_ij = (at_k * dot(u, u) - at_j * ik + at_i * jk).h / sq_ij;
+      off_ik = (at_k * ij - at_j * dot(v, v) - at_i * jk).h / sq_ik;
     }
     out.share[i] =
         0.125 * ((sq_ij + lean_ij) * (off_ij / size) + (sq_ik + lean_ik) * (off_ik / size));

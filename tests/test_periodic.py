@@ -218,7 +218,7 @@ def test_narrow_and_wide_margins_give_the_same(monkeypatch):
         assert named(boxed(points, (1.0, 1.0))) == expected
 
 
-@pytest.mark.parametrize("scale", [2.0**-400, 1e-150, 1e-9, 1e9, 1e150, 2.0**400])
+@pytest.mark.parametrize("scale", [2.0**-400, 1e-150, 2.0**-130, 1e-9, 1e9, 1e150, 2.0**400])
 def test_scale_changes_nothing_but_the_radii(scale):
     points = np.random.default_rng(6).random((40, 3)).astype(np.float32).astype(float)
     exact = math.frexp(scale)[0] == 0.5

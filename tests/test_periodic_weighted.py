@@ -148,3 +148,14 @@ def test_wrong_weights_are_refused():
     with pytest.raises(CoordinateRangeError, match="weights") as error:
         am.AlphaComplex([[0.1, 0.2], [0.3, 0.4]], periods=(1, 1), weights=[0.5, 1e200])
     assert error.value.rows == (1,)
+
+
+def test_values_at_the_lower_end_of_what_is_not_scaled():
+    """Found by fuzzing: products of eight coordinates left the range of float64."""
+    points = np.random.default_rng(3).integers(0, 256, (12, 3)) / 256
+    weights = np.random.default_rng(4).integers(0, 16, 12) / 256
+    whole = am.AlphaComplex(points, periods=(1, 1, 1), weights=weights)
+    tiny = np.ldexp(points, -130), np.ldexp(weights, -260)
+    small = am.AlphaComplex(tiny[0], periods=(2.0**-130,) * 3, weights=tiny[1])
+    for own, other in zip(whole.filtration.radii, small.filtration.radii, strict=True):
+        assert np.array_equal(np.ldexp(own, -130), other)

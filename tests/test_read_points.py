@@ -120,6 +120,13 @@ def test_npy_of_python_2(read):
     assert read(content, "a.npy") == TWO.tolist()
 
 
+def test_npy_of_text_by_its_old_name(read):
+    """Found by fuzzing: NumPy warns of it."""
+    content = npy(np.array(["1", "2"], dtype="S1")).replace(b"'|S1'", b"'|a1'")
+    with pytest.raises(FileReadError):
+        read(content, "a.npy")
+
+
 def test_npy_columns(read):
     wide = np.column_stack([np.zeros(2), TWO[:, 1], TWO[:, 0]])
     assert read(npy(wide), "a.npy", dimension=2) == wide[:, :2].tolist()

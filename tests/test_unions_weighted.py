@@ -119,3 +119,27 @@ def test_equal_weights_are_a_radius(dimension):
     weighted = measures(am.AlphaComplex(points, weights=np.full(200, 0.15**2)).union(0.0))
     for a, b in zip(plain, weighted, strict=True):
         assert b == pytest.approx(a, rel=1e-9, abs=1e-12)
+
+
+def test_parts_of_discs_at_a_triangle_of_almost_no_height():
+    """Found by fuzzing: the middle point is off the line of the others by an ulp."""
+    points = np.array(
+        [
+            [-6.7834626804597065e-14, -9.9628638672299985e-14],
+            [4.3659520443384281e-14, 6.6183170055467144e-14],
+            [1.4974133044631799e-14, 2.3522850334245498e-14],
+        ]
+    )
+    weights = [1.4527402237414672e-26, 6.2863657239371714e-27, 7.7754914828564737e-28]
+    built = am.filtration(points, weights=weights)
+    found = union_of_balls(built, float(built.radii[2][0]))
+    assert found.disc_areas.sum() == pytest.approx(found.area, rel=1e-12, abs=0)
+
+
+def test_a_ball_that_is_not_there_for_its_weight_changes_nothing():
+    """Found by fuzzing: what its weight rounds was taken for what others' values do."""
+    points = np.array([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3.0], [5, 5, 5]])
+    alone = am.AlphaComplex(points[:4], weights=[0, 1, 0, 0]).union(1.75)
+    found = am.AlphaComplex(points, weights=[0, 1, 0, 0, -1e30]).union(1.75)
+    assert found.volume == pytest.approx(alone.volume, rel=1e-14)
+    assert found.ball_volumes[:4] == pytest.approx(alone.ball_volumes, rel=1e-14)

@@ -66,7 +66,8 @@ def _settled(filtration: AnyFiltration, radius: float) -> float:
     that has both differs from the true one by simplices that hardly matter.
     """
     weights = filtration.weights
-    heaviest = 0.0 if weights is None else float(np.abs(weights).max(initial=0.0))
+    # Balls that are far from there, for their weight, do not matter.
+    heaviest = 0.0 if weights is None else float(weights.max(initial=0.0))
     last, found = radius, True
     while found:
         found = False

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "box.hpp"
 #include "exact.hpp"
 #include "plane.hpp"
 #include "space.hpp"
@@ -50,6 +51,10 @@ bool allowed(const Cloud& cloud) {
 }
 
 void run(const Cloud& cloud) {
+  if (cloud.periodic) {
+    prove_box(cloud);
+    return;
+  }
   bool refused = false;
   try {
     const std::vector<double> queries = queries_of(cloud);

@@ -9,23 +9,22 @@
 namespace trust {
 
 // From p to the segment from a to b, in the plane.
-inline long double distance(const Vector<double>& p, const Vector<double>& a,
-                            const Vector<double>& b) {
-  const long double x = static_cast<long double>(b[0]) - a[0],
-                    y = static_cast<long double>(b[1]) - a[1];
-  const long double u = static_cast<long double>(p[0]) - a[0],
-                    v = static_cast<long double>(p[1]) - a[1];
+inline long double distance(const Vector<long double>& p, const Vector<long double>& a,
+                            const Vector<long double>& b) {
+  const long double x = b[0] - a[0],
+                    y = b[1] - a[1];
+  const long double u = p[0] - a[0],
+                    v = p[1] - a[1];
   const long double square = x * x + y * y;
   const long double t = square > 0 ? std::min(1.0L, std::max(0.0L, (u * x + v * y) / square)) : 0;
   return std::hypot(u - t * x, v - t * y);
 }
 
 // From a point to a triangle, in space.
-inline long double distance(const Vector<double>& point, const Vector<double>& first,
-                            const Vector<double>& second, const Vector<double>& third) {
+inline long double distance(const Vector<long double>& point, const Vector<long double>& first,
+                            const Vector<long double>& second, const Vector<long double>& third) {
   using Long = Vector<long double>;
-  const auto wide = [](const Vector<double>& v) { return Long{v[0], v[1], v[2]}; };
-  const Long p = wide(point), corners[3] = {wide(first), wide(second), wide(third)};
+  const Long p = point, corners[3] = {first, second, third};
   const auto length = [](const Long& v) { return std::hypot(v[0], v[1], v[2]); };
   long double least = HUGE_VALL;
   for (int k = 0; k < 3; ++k) {

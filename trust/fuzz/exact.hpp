@@ -82,12 +82,29 @@ class Geometry {
     weight(cloud.weights);
   }
 
+  // Places that no double holds, in units of 2^-shift, and rounded, by some units of the last
+  // place of `size`. With weights for each, or none.
+  Geometry(const std::vector<Vector<Wide>>& places,
+           const std::vector<Vector<long double>>& rounded, long double size,
+           const std::vector<double>& weights, int shift)
+      : shift_(shift), size_(size), plain_(rounded), wide_(places) {
+    weight(weights);
+  }
+
   const Vector<Wide>& wide(Id i) const { return wide_[static_cast<std::size_t>(i)]; }
-  const Vector<double>& plain(Id i) const { return plain_[static_cast<std::size_t>(i)]; }
+  const Vector<long double>& plain(Id i) const { return plain_[static_cast<std::size_t>(i)]; }
   bool weighted() const { return !plain_weight_.empty(); }
   double weight(Id i) const { return weighted() ? plain_weight_[static_cast<std::size_t>(i)] : 0.0; }
 
-  bool before(Id a, Id b) const { return plain(a) < plain(b); }
+  // Lexicographically; weights do not count.
+  bool before(Id a, Id b) const {
+    if (size_ == 0) return plain(a) < plain(b);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int s = (wide(a)[k] - wide(b)[k]).sign();
+      if (s != 0) return s < 0;
+    }
+    return false;
+  }
 
   // Clouds on a plane of space are looked at along one axis.
   void look_along(std::size_t dropped) {
@@ -131,12 +148,18 @@ class Geometry {
   // +1 if c, between a and b on a line, is lifted below the segment from a to b; 0 on it.
   int in_interval(Id a, Id b, Id c) const {
     std::size_t axis = 0;
-    while (axis < 2 && plain(a)[axis] == plain(b)[axis]) ++axis;
-    const int sign = plain(a)[axis] < plain(b)[axis] ? 1 : -1;
-    return sign * sign_of([&](auto kind) {
+    while (axis < 2 && (wide(b)[axis] - wide(a)[axis]).sign() == 0) ++axis;
+    return (wide(b)[axis] - wide(a)[axis]).sign() * sign_of([&](auto kind) {
              using R = decltype(kind);
              return lift<R>(a, c) * step<R>(b, c)[axis] - lift<R>(b, c) * step<R>(a, c)[axis];
            });
+  }
+  int in_interval_or_out(Id a, Id b, Id c) const {
+    const int s = in_interval(a, b, c);
+    if (s != 0) return s;
+    if (before(a, c) && before(b, c)) return -1;
+    const bool ascending = before(a, b);
+    return (ascending ? before(a, c) : before(c, b)) == ascending ? 1 : -1;
   }
 
   // +1 if d is in the circle through a, b, c, counter-clockwise as looked at; 0 on it. With
@@ -223,10 +246,12 @@ class Geometry {
  private:
   void add(const std::vector<double>& coordinates, std::size_t dimension) {
     for (std::size_t i = 0; i < coordinates.size(); i += dimension) {
-      Vector<double> p{};
+      Vector<long double> p{};
       for (std::size_t k = 0; k < dimension; ++k) p[k] = coordinates[i + k];
       plain_.push_back(p);
-      wide_.push_back({Wide::of(p[0], shift_), Wide::of(p[1], shift_), Wide::of(p[2], shift_)});
+      Vector<Wide> exact;
+      for (std::size_t k = 0; k < dimension; ++k) exact[k] = Wide::of(coordinates[i + k], shift_);
+      wide_.push_back(exact);
     }
   }
   void weight(const std::vector<double>& weights) {
@@ -288,9 +313,8 @@ class Geometry {
     } else {
       Vector<Rough> v;
       for (std::size_t k = 0; k < 3; ++k) {
-        const long double d =
-            static_cast<long double>(plain(to)[k]) - static_cast<long double>(plain(from)[k]);
-        v[k] = {d, std::fabs(d)};
+        const long double d = plain(to)[k] - plain(from)[k];
+        v[k] = {d, size_ == 0 ? std::fabs(d) : size_};
       }
       return v;
     }
@@ -308,8 +332,9 @@ class Geometry {
   }
 
   int shift_ = 0;
+  long double size_ = 0;
   std::array<std::size_t, 2> axes_{0, 1};
-  std::vector<Vector<double>> plain_;
+  std::vector<Vector<long double>> plain_;
   std::vector<Vector<Wide>> wide_;
   std::vector<double> plain_weight_;  // empty without weights
   std::vector<Wide> wide_weight_;

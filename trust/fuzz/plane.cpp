@@ -14,6 +14,7 @@
 #include "proof.hpp"
 #include "regular2.hpp"
 #include "restricted2.hpp"
+#include "union.hpp"
 #include "voronoi2.hpp"
 
 namespace trust {
@@ -27,6 +28,7 @@ using alphamesh::Point2;
 constexpr double kError = 1e-14;
 
 struct Built {
+  std::size_t n = 0;
   int dimension = -1, exponent = 0;
   Buffer<Id> representative;
   alphamesh::Filtration2 f;
@@ -36,6 +38,7 @@ struct Built {
 
 Built build(const Cloud& cloud, Job& job) {
   Built out;
+  out.n = cloud.n;
   const double* weights = cloud.weights.empty() ? nullptr : cloud.weights.data();
   auto order = alphamesh::spatial_order2(cloud.coordinates.data(), cloud.n, job, weights);
   out.exponent = order.exponent;
@@ -54,6 +57,11 @@ Built build(const Cloud& cloud, Job& job) {
   out.vertex_radii = std::move(regular.vertex_radii);
   out.hidden = std::move(regular.hidden);
   return out;
+}
+
+// When each row joins the complex.
+std::vector<double> births_of(const Built& built) {
+  return trust::births_of(built.n, built.representative, built.vertices, built.vertex_radii);
 }
 
 class Plane {
@@ -78,6 +86,7 @@ class Plane {
   void prove_triangulation_alone();
   void prove_hull();
   // Only where coordinates need no scaling.
+  void prove_union();
   void prove_cells();
   void prove_outlines();
   void prove_location();
@@ -153,7 +162,7 @@ void Plane::prove_filtration() {
 }
 
 void Plane::prove_persistence() {
-  const std::vector<double> births = births_of(cloud_.n, vertices_, built_.vertex_radii);
+  const std::vector<double> births = births_of(built_);
   const auto pairs =
       alphamesh::persistence2(view_, g_.weighted() ? births.data() : nullptr,
                               f_.triangle_radii.data(), f_.edge_radii.data(), job_);
@@ -186,6 +195,18 @@ void Plane::prove_same_in_reverse() {
   require(by_place<1>(cloud_, built_.vertices, built_.vertex_radii) ==
               by_place<1>(turned, other.vertices, other.vertex_radii),
           claim);
+}
+
+void Plane::prove_union() {
+  if (vertices_.empty() || !in_range(cloud_, radius_)) return;
+  const std::vector<double> births = births_of(built_);
+  const Measured found = union_of({cloud_, births, &f_, nullptr}, radius_, job_);
+  trust::prove_union(cloud_, radius_, found);
+  if (!cloud_.again) return;
+  const Cloud turned = reversed(cloud_);
+  const Built other = build(turned, job_);
+  const std::vector<double> others = births_of(other);
+  prove_same_union(found, union_of({turned, others, &other.f, nullptr}, radius_, job_));
 }
 
 void Plane::prove_triangulation_alone() {
@@ -244,7 +265,7 @@ void Plane::prove_hull() {
 void Plane::prove_cells() {
   const auto has_triangle = within(f_.triangle_radii), has_edge = within(f_.edge_radii);
   std::vector<char> active;
-  for (double birth : births_of(cloud_.n, vertices_, built_.vertex_radii)) {
+  for (double birth : births_of(built_)) {
     active.push_back(g_.weighted() ? birth <= radius_ : birth == 0.0);
   }
   const auto flags = [](const std::vector<char>& v) {
@@ -410,6 +431,7 @@ void prove_plane(const Cloud& cloud, const std::vector<double>& queries) {
     plane.prove_hull();
   }
   if (built.exponent != 0) return;
+  plane.prove_union();
   plane.prove_cells();
   plane.prove_outlines();
   plane.prove_voronoi();

@@ -27,10 +27,10 @@ std::vector<Row<K>> rows_of(const Id* rows, std::size_t count) {
 inline std::vector<Id> proved_places(const Geometry& g, std::size_t n,
                                      const alphamesh::Buffer<Id>& representative) {
   require(representative.size() == 0 || representative.size() == n, "one for each point");
-  std::map<Vector<double>, Id> best;
+  std::map<Vector<long double>, Id> best;
   const auto place = [&](Id i) {
-    Vector<double> p = g.plain(i);
-    for (double& v : p) v += 0.0;  // no negative zeros
+    Vector<long double> p = g.plain(i);
+    for (long double& v : p) v += 0.0L;  // no negative zeros
     return p;
   };
   for (Id i = 0; i < static_cast<Id>(n); ++i) {
@@ -147,12 +147,18 @@ inline void prove_vertex_values(const Geometry& g, const std::vector<Id>& vertic
   for (const auto& [v, claim] : claims) prove_value(g, &v, 1, claim, 1e-15);
 }
 
-// When each row joins the complex: never if it is hidden.
-inline std::vector<double> births_of(std::size_t n, const std::vector<Id>& vertices,
+// When each row joins the complex, never if it is hidden. Without weights, there are no rows
+// of vertices: all that stand for themselves are there from the beginning.
+inline std::vector<double> births_of(std::size_t n, const alphamesh::Buffer<Id>& representative,
+                                     const alphamesh::Buffer<Id>& vertices,
                                      const alphamesh::Buffer<double>& radii) {
   std::vector<double> births(n, HUGE_VAL);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    births[static_cast<std::size_t>(vertices[i])] = radii.size() == 0 ? 0.0 : radii[i];
+    births[static_cast<std::size_t>(vertices[i])] = radii[i];
+  }
+  for (std::size_t i = 0; i < n && vertices.size() == 0; ++i) {
+    const bool own = representative.size() == 0 || representative[i] == static_cast<Id>(i);
+    if (own) births[i] = 0.0;
   }
   return births;
 }

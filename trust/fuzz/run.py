@@ -37,7 +37,7 @@ _HERE = Path(__file__).resolve().parent
 _ROOT = _HERE.parents[1]
 _CORPUS = _HERE.parent / "corpus"
 _BUILD = _ROOT / "build" / "fuzz"
-_PROOFS = ("core", "plane", "solid", "space")
+_PROOFS = ("box", "core", "plane", "solid", "space", "union")
 _COMMON = ("-std=c++17", "-ffp-contract=off", "-pthread", f"-I{_ROOT / 'cpp'}")
 _SANITIZED = ("-fsanitize=address,undefined", "-fno-sanitize-recover=undefined")
 # Several parts of tiny clouds, and threads at work on them.

@@ -11,6 +11,7 @@
 #include "sheet.hpp"
 #include "solid.hpp"
 #include "span3.hpp"
+#include "union.hpp"
 
 namespace trust {
 namespace {
@@ -21,6 +22,7 @@ using alphamesh::Job;
 constexpr double kError = 2e-13, kWeightedError = 5e-13;
 
 struct Built {
+  std::size_t n = 0;
   int dimension = -1, exponent = 0;
   Buffer<Id> representative;
   alphamesh::Filtration3 f;
@@ -41,6 +43,7 @@ alphamesh::Filtration3 filtration(const alphamesh::SpatialOrder3& order, int* di
 
 Built build(const Cloud& cloud, Job& job) {
   Built out;
+  out.n = cloud.n;
   const double* weights = cloud.weights.empty() ? nullptr : cloud.weights.data();
   auto order = alphamesh::spatial_order3(cloud.coordinates.data(), cloud.n, job, weights);
   out.exponent = order.exponent;
@@ -55,6 +58,11 @@ Built build(const Cloud& cloud, Job& job) {
   }
   out.representative = std::move(order.representative);
   return out;
+}
+
+// When each row joins the complex.
+std::vector<double> births_of(const Built& built) {
+  return trust::births_of(built.n, built.representative, built.vertices.vertices, built.vertices.radii);
 }
 
 class Space {
@@ -75,6 +83,7 @@ class Space {
   void prove_same_in_reverse();
   void prove_triangulation_alone();
   // Only where coordinates need no scaling.
+  void prove_union();
   void prove_solid();
 
  private:
@@ -234,7 +243,7 @@ void Space::prove_persistence() {
                 without<4>(tetrahedra_[i / 4], i % 4),
             "triangles lie opposite to the vertices of tetrahedra");
   }
-  const std::vector<double> births = births_of(cloud_.n, vertices_, built_.vertices.radii);
+  const std::vector<double> births = births_of(built_);
   const auto pairs = alphamesh::persistence3(
       {cloud_.n, g_.weighted() ? births.data() : nullptr, f_.edges.data(), f_.edge_radii.data(), edges_.size(),
        triangle_edges.data(), f_.triangle_tetrahedra.data(), f_.triangle_radii.data(),
@@ -301,6 +310,25 @@ void Space::prove_triangulation_alone() {
   require(sorted == expected, "the triangulation is that of the filtration");
 }
 
+void Space::prove_union() {
+  std::vector<double> radii(f_.triangle_radii.data(),
+                            f_.triangle_radii.data() + f_.triangle_radii.size());
+  radii.insert(radii.end(), f_.edge_radii.data(), f_.edge_radii.data() + f_.edge_radii.size());
+  radii.insert(radii.end(), f_.tetrahedron_radii.data(),
+               f_.tetrahedron_radii.data() + f_.tetrahedron_radii.size());
+  std::sort(radii.begin(), radii.end());
+  const double radius = chosen_radius(radii, cloud_.choice);
+  if (vertices_.empty() || !in_range(cloud_, radius)) return;
+  const std::vector<double> births = births_of(built_);
+  const Measured found = union_of({cloud_, births, nullptr, &f_}, radius, job_);
+  trust::prove_union(cloud_, radius, found);
+  if (!cloud_.again) return;
+  const Cloud turned = reversed(cloud_);
+  const Built other = build(turned, job_);
+  const std::vector<double> others = births_of(other);
+  prove_same_union(found, union_of({turned, others, nullptr, &other.f}, radius, job_));
+}
+
 void Space::prove_solid() {
   trust::prove_solid({cloud_, queries_, f_, tetrahedra_, triangles_, tetrahedron_triangles_, g_},
                      job_);
@@ -317,7 +345,9 @@ void prove_space(const Cloud& cloud, const std::vector<double>& queries) {
   space.prove_persistence();
   if (cloud.again) space.prove_same_in_reverse();
   if (cloud.weights.empty()) space.prove_triangulation_alone();
-  if (built.exponent != 0 || built.dimension != 3) return;
+  if (built.exponent != 0) return;
+  space.prove_union();
+  if (built.dimension != 3) return;
   space.prove_solid();
 }
 

@@ -133,6 +133,8 @@ def _array(source: Source, file: IO[bytes], size: int) -> NDArray[Any]:
     with warnings.catch_warnings():
         # Files that were written by Python 2 are as good as others.
         warnings.filterwarnings("ignore", "Reading .* additional header parsing", UserWarning)
+        # So are those whose text goes by an old name.
+        warnings.filterwarnings("ignore", "Data type alias", DeprecationWarning)
         return _parsed(source, file, size)
 
 
