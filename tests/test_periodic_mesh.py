@@ -119,3 +119,11 @@ def test_files(tmp_path: Path):
     )
     with pytest.raises(DimensionError, match="in space alone"):
         boxed(2, 5).at(0.2).mesh(surface=True)
+
+
+def test_for_other_libraries():
+    pytest.importorskip("meshio")
+    shape = boxed(3, 60).at(0.25)
+    mesh = shape.to_meshio()
+    assert len(mesh.cells_dict["tetra"]) == len(shape.tetrahedra)
+    assert mesh.point_data["offset_x"].tolist() == shape.mesh().point_data["offset_x"].tolist()

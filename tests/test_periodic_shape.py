@@ -76,7 +76,7 @@ def test_what_has_no_meaning_says_so():
         with pytest.raises(PeriodicError, match=f"no '{name}'"):
             getattr(flat, name)
         assert not hasattr(solid, name)
-    for name in ("polygons", "regions", "save", "to_meshio"):
+    for name in ("polygons", "regions", "contains", "to_trimesh"):
         with pytest.raises(PeriodicError, match="corners"):
             getattr(flat.at(1), name)
     with pytest.raises(AttributeError, match="nonsense"):

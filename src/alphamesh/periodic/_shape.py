@@ -249,6 +249,30 @@ class PeriodicShape(Record):
         surface = self._d == 3 and "tetra" not in mesh_format(path, file_format).cells
         write_mesh(self.mesh(surface=surface), path, file_format=file_format)
 
+    def to_pyvista(self) -> Any:
+        """Return :meth:`mesh` as a ``pyvista.UnstructuredGrid``.
+
+        Raises
+        ------
+        MissingLibraryError
+            If pyvista is not installed.
+        """
+        from alphamesh.io.exports import to_pyvista
+
+        return to_pyvista(self.mesh())
+
+    def to_meshio(self) -> Any:
+        """Return :meth:`mesh` as a ``meshio.Mesh``.
+
+        Raises
+        ------
+        MissingLibraryError
+            If meshio is not installed.
+        """
+        from alphamesh.io.exports import to_meshio
+
+        return to_meshio(self.mesh())
+
     def plot(self, ax: Axes | None = None, **options: Any) -> Drawing:
         """Draw the complex, the box and what crosses its border; in the plane alone.
 
