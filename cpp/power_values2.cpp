@@ -159,6 +159,8 @@ int exact_side(const Weighted<P>& a, const Weighted<P>& b, const Weighted<P>& c,
   return (i2 * (dot(j, j) + Big(fw)) - dot(i, j) * (i2 + Big(ew))).sign();
 }
 
+Weighted3 in_space(const Weighted<SheetPoint>& p) { return {Point3(p), p.w}; }
+
 void store(const Point2& p, double (*to)[TriangleBlock::kSize], std::size_t i) {
   to[0][i] = p.x;
   to[1][i] = p.y;
@@ -193,6 +195,11 @@ void PowerTriangles<P>::push(const Weighted<P>& a, const Weighted<P>& b, const W
     w_[k][count] = q[k]->w;
   }
   first_[count++] = first;
+  if constexpr (kDim == 3) {
+    const Weighted<P>* v[3] = {&a, &b, &c};
+    std::sort(v, v + 3, [](const Weighted<P>* l, const Weighted<P>* r) { return *l < *r; });
+    in_space_.push(in_space(*v[0]), in_space(*v[1]), in_space(*v[2]));
+  }
 }
 
 template <class P>
@@ -247,7 +254,11 @@ void PowerTriangles<P>::evaluate(const Lattice& lattice) {
     const double b0 = terms < exact4 ? -1.0 : 16.0 * kEps * t0;
     const double b1 = terms < exact4 ? -1.0 : 16.0 * kEps * t1;
     const double b2 = terms < exact4 ? -1.0 : 16.0 * kEps * t2;
-    mask_[i] = (s0 > 0.0 ? 0.0 : 1.0) + (s1 > 0.0 ? 0.0 : 2.0) + (s2 > 0.0 ? 0.0 : 4.0);
+    if constexpr (kDim == 2) {
+      mask_[i] = (s0 > 0.0 ? 0.0 : 1.0) + (s1 > 0.0 ? 0.0 : 2.0) + (s2 > 0.0 ? 0.0 : 4.0);
+    } else {
+      mask_[i] = (s0 < 0.0 ? 1.0 : 0.0) + (s1 < 0.0 ? 2.0 : 0.0) + (s2 < 0.0 ? 4.0 : 0.0);
+    }
     bad_side_[i] = (std::fabs(s0) > b0 ? 0.0 : 1.0) + (std::fabs(s1) > b1 ? 0.0 : 1.0) +
                    (std::fabs(s2) > b2 ? 0.0 : 1.0);
   }
@@ -256,7 +267,13 @@ void PowerTriangles<P>::evaluate(const Lattice& lattice) {
 template <class P>
 void PowerTriangles<P>::measure(const Lattice& lattice, int exponent) {
   evaluate(lattice);
-  const PowerOfTwo unscale(-exponent);
+  if constexpr (kDim == 3) {
+    in_space_.measure(Lattice3(lattice.unit), exponent);
+    in_space_.count = 0;
+    std::copy(in_space_.radius, in_space_.radius + count, radius);
+    std::fill(bad_value_, bad_value_ + count, 0.0);
+  }
+  const PowerOfTwo unscale(kDim == 3 ? 0 : -exponent);
   for (std::size_t i = 0; i < count; ++i) {
     radius[i] = unscale * radius[i];
     int mask = static_cast<int>(mask_[i]);
@@ -266,7 +283,7 @@ void PowerTriangles<P>::measure(const Lattice& lattice, int exponent) {
         mask = 0;
         for (int k = 0; k < 3; ++k) {
           const int side = exact_side(p[k], p[(k + 1) % 3], p[(k + 2) % 3], lattice);
-          mask |= (side <= 0 ? 1 : 0) << k;
+          mask |= (is_attached(side) ? 1 : 0) << k;
         }
       }
       if (bad_value_[i] != 0.0) {
@@ -290,6 +307,15 @@ void PowerEdges<P>::set(std::size_t i, const Weighted<P>& a, const Weighted<P>& 
 }
 
 // L / 4 - (w_a + w_b) / 2 + (w_a - w_b)^2 / (4 L); some ten roundings of the terms.
+template <>
+void PowerEdges<SheetPoint>::measure(std::size_t count, const Lattice& lattice) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool turned = b_[i] < a_[i];
+    const Weighted3 a = in_space(turned ? b_[i] : a_[i]), b = in_space(turned ? a_[i] : b_[i]);
+    radius[i] = power_radius(a, b, Lattice3(lattice.unit), 0);
+  }
+}
+
 template <class P>
 void PowerEdges<P>::measure(std::size_t count, const Lattice& lattice) {
   for (std::size_t i = 0; i < count; ++i) {

@@ -103,7 +103,7 @@ SpatialOrder<Sheet> sheet_of(const SpatialOrder3& order, const std::vector<std::
   for (std::size_t i = 0; i < n; ++i) {
     const auto from = static_cast<std::size_t>(sheet.row[i]);
     const Point2 p = plane.points[i];
-    sheet.points[i] = {p.x, p.y, coordinate(order.points[from], axes.dropped)};
+    sheet.points[i] = {p.x, p.y, coordinate(order.points[from], axes.dropped), axes.dropped};
     sheet.row[i] = order.row[from];
     if (sheet.weight.size() != 0) sheet.weight[i] = order.weight[from];
   }

@@ -19,11 +19,17 @@
 namespace alphamesh {
 
 struct SheetPoint {
-  double x, y;  // the coordinates kept, in their order
-  double z;     // the one dropped
+  double x, y;   // the coordinates kept, in their order
+  double z;      // the one dropped
+  int axis = 2;  // which that is
 
   operator Point2() const { return {x, y}; }
-  operator Point3() const { return {x, y, z}; }
+  // In the order of space: sums of three are rounded as those of the cloud around are, of
+  // which the sheet may be a part.
+  operator Point3() const {
+    if (axis == 2) return {x, y, z};
+    return axis == 1 ? Point3{x, z, y} : Point3{z, x, y};
+  }
 };
 
 // The same as in the order of all three, see sheet_of().
@@ -45,8 +51,9 @@ int in_circle_exact(SheetPoint a, SheetPoint b, SheetPoint c, SheetPoint d, cons
 // those, so that the determinant is the one of the plane with another lift.
 inline bool in_circle(SheetPoint a, SheetPoint b, SheetPoint c, SheetPoint d,
                       const Lattice& lattice) {
-  const Vector3<double> u = Point3(a) - Point3(d), v = Point3(b) - Point3(d);
-  const Vector3<double> w = Point3(c) - Point3(d);
+  const Vector3<double> u{a.x - d.x, a.y - d.y, a.z - d.z};
+  const Vector3<double> v{b.x - d.x, b.y - d.y, b.z - d.z};
+  const Vector3<double> w{c.x - d.x, c.y - d.y, c.z - d.z};
   const double vw = v.x * w.y, wv = w.x * v.y, wu = w.x * u.y, uw = u.x * w.y;
   const double uv = u.x * v.y, vu = v.x * u.y;
   const double ul = dot(u, u), vl = dot(v, v), wl = dot(w, w);
