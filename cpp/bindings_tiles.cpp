@@ -1,5 +1,6 @@
 // Python functions for tiles of clouds larger than memory.
 #include "bindings.hpp"
+#include "regular2.hpp"
 #include "spread.hpp"
 #include "tile_share2.hpp"
 #include "tile_share3.hpp"
@@ -62,29 +63,59 @@ TileBox<D> box_of(const Table& bounds) {
   return box;
 }
 
+// Values of vertices, none without weights.
 template <class Row>
-nb::tuple tile2(const Points2& points, const Rows<Row>& rows, const Table& bounds, double radius,
-                int threads, const nb::object& progress) {
+nb::object vertex_radii(TilePoints<Row>& own, bool weighted) {
+  if (!weighted) return nb::none();
+  return columns_array(std::move(own.vertex_radii));
+}
+
+// A number for each of n points, or null.
+const double* optional_values(const nb::object& values, std::size_t n) {
+  if (values.is_none()) return nullptr;
+  const auto array = nb::cast<Values>(values);
+  if (array.shape(0) != n) throw std::invalid_argument("not one value for each point");
+  return array.data();
+}
+
+template <class Row>
+nb::tuple tile2(const Points2& points, const nb::object& weights, const Rows<Row>& rows,
+                const Table& bounds, double radius, int threads, const nb::object& progress) {
   const std::size_t n = points.shape(0);
   if (n > kMaxPoints2) throw TooManyPoints("at most 2^27 points");
   if (rows.shape(0) != n) throw std::invalid_argument("rows: not one for each point");
+  const double *v = points.data(), *w = optional_values(weights, n);
   const TileBox<2> box = box_of<2>(bounds);
   Job job(useful_threads(threads, n));
   TilePoints<Row> own;
   TileShare2<Row> share;
+  auto keep = [&](const Buffer<std::int32_t>& merged) {
+    const TileVertices vertices{merged.data(), w == nullptr ? nullptr : share.vertex_radii.data(),
+                                radius};
+    own = tile_points(v, n, rows.data(), vertices, box);
+  };
   run_watched(job, n, progress, [&] {
-    SpatialOrder2 order = spatial_order2(points.data(), n, job);
-    Mesh2 mesh = delaunay2(order, job);
-    share = tile_share2(points.data(), rows.data(), order, mesh, box, radius, job);
-    own = tile_points(points.data(), n, rows.data(), order.representative.data(), box);
+    SpatialOrder2 order = spatial_order2(v, n, job, w);
+    if (w == nullptr) {
+      Mesh2 mesh = delaunay2(order, job);
+      share = tile_share2(v, rows.data(), order, mesh, box, radius, job);
+      keep(order.representative);
+    } else {
+      const auto heavy = weighted(std::move(order), job);
+      Mesh2 mesh = regular2(heavy, job);
+      const Buffer<Role> role = roles_of(heavy, mesh, n, job);
+      share = tile_share2(v, rows.data(), heavy, mesh, box, radius, {role.data(), w, n}, job);
+      keep(heavy.representative);
+    }
   });
   return nb::make_tuple(
       points_tuple(std::move(own)), columns_array(std::move(own.vertices)),
-      columns_array(std::move(share.edges)), columns_array(std::move(share.edge_radii)),
-      columns_array(std::move(share.edge_kinds)), columns_array(std::move(share.triangles)),
-      columns_array(std::move(share.triangle_radii)), list_array(std::move(share.boundary), 3),
-      list_array(std::move(share.boundary_regions)), list_array(std::move(share.region_sizes)),
-      border(std::move(share.components), 1), border(std::move(share.regions), 3));
+      vertex_radii(own, w != nullptr), columns_array(std::move(share.edges)),
+      columns_array(std::move(share.edge_radii)), columns_array(std::move(share.edge_kinds)),
+      columns_array(std::move(share.triangles)), columns_array(std::move(share.triangle_radii)),
+      list_array(std::move(share.boundary), 3), list_array(std::move(share.boundary_regions)),
+      list_array(std::move(share.region_sizes)), border(std::move(share.components), 1),
+      border(std::move(share.regions), 3));
 }
 
 using Points3 = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
@@ -92,11 +123,11 @@ using Ids1 = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::c_contig, nb::devi
 
 template <class Row>
 nb::tuple tile_share3_py(const Points3& points, std::size_t real, const Rows<Row>& rows,
-                         const Ids1& representative, const Ids& edges, const Values& edge_radii,
-                         const Ids& triangles, const Values& triangle_radii,
-                         const Ids& triangle_tetrahedra, const Ids& tetrahedra,
-                         const Values& tetrahedron_radii, const Table& bounds, double radius,
-                         const nb::object& progress) {
+                         const Ids1& representative, const nb::object& vertex_values,
+                         const Ids& edges, const Values& edge_radii, const Ids& triangles,
+                         const Values& triangle_radii, const Ids& triangle_tetrahedra,
+                         const Ids& tetrahedra, const Values& tetrahedron_radii,
+                         const Table& bounds, double radius, const nb::object& progress) {
   const std::size_t n = points.shape(0);
   if (rows.shape(0) != n || representative.shape(0) != n || real > n) {
     throw std::invalid_argument("rows: not one for each point");
@@ -115,19 +146,21 @@ nb::tuple tile_share3_py(const Points3& points, std::size_t real, const Rows<Row
                             triangles.shape(0),
                             tetrahedra.shape(0),
                             triangle_tetrahedra.data(),
-                            representative.data()};
+                            representative.data(),
+                            optional_values(vertex_values, n)};
   const TileBox<3> box = box_of<3>(bounds);
   Job job(1);
   TilePoints<Row> own;
   TileShare3<Row> share;
   run_watched(job, n, progress, [&] {
     share = tile_share3(view, box, radius, job);
-    own = tile_points(points.data(), real, rows.data(), representative.data(), box);
+    own = tile_points(points.data(), real, rows.data(), view.vertices(radius), box);
   });
   return nb::make_tuple(
       points_tuple(std::move(own)), columns_array(std::move(own.vertices)),
-      columns_array(std::move(share.edges)), columns_array(std::move(share.edge_radii)),
-      columns_array(std::move(share.triangles)), columns_array(std::move(share.triangle_radii)),
+      vertex_radii(own, view.vertex_radii != nullptr), columns_array(std::move(share.edges)),
+      columns_array(std::move(share.edge_radii)), columns_array(std::move(share.triangles)),
+      columns_array(std::move(share.triangle_radii)),
       columns_array(std::move(share.triangle_kinds)), columns_array(std::move(share.tetrahedra)),
       columns_array(std::move(share.tetrahedron_radii)), list_array(std::move(share.boundary), 4),
       list_array(std::move(share.boundary_regions)), list_array(std::move(share.region_sizes)),
@@ -137,11 +170,12 @@ nb::tuple tile_share3_py(const Points3& points, std::size_t real, const Rows<Row
 
 template <class Row>
 void define_shares(nb::module_& m) {
-  m.def("tile2", &tile2<Row>, nb::arg("points"), nb::arg("rows").noconvert(), nb::arg("bounds"),
-        nb::arg("radius"), nb::arg("threads"), nb::arg("progress").none());
+  m.def("tile2", &tile2<Row>, nb::arg("points"), nb::arg("weights").none(),
+        nb::arg("rows").noconvert(), nb::arg("bounds"), nb::arg("radius"), nb::arg("threads"),
+        nb::arg("progress").none());
   m.def("tile_share3", &tile_share3_py<Row>, nb::arg("points"), nb::arg("real"),
-        nb::arg("rows").noconvert(), nb::arg("representative"), nb::arg("edges"),
-        nb::arg("edge_radii"), nb::arg("triangles"), nb::arg("triangle_radii"),
+        nb::arg("rows").noconvert(), nb::arg("representative"), nb::arg("vertex_radii").none(),
+        nb::arg("edges"), nb::arg("edge_radii"), nb::arg("triangles"), nb::arg("triangle_radii"),
         nb::arg("triangle_tetrahedra"), nb::arg("tetrahedra"), nb::arg("tetrahedron_radii"),
         nb::arg("bounds"), nb::arg("radius"), nb::arg("progress").none());
 }

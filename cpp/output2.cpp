@@ -4,9 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "power_values2.hpp"
-#include "sheet.hpp"
-#include "values2.hpp"
+#include "blocks2.hpp"
 
 namespace alphamesh {
 namespace {
@@ -62,59 +60,6 @@ std::size_t number_triangles(Mesh2& mesh, const Parts& parts, std::size_t part, 
   }
   return edges;
 }
-
-// What evaluates triangles and edges, and how triangles tell that edge k is attached: without
-// weights, it is the one opposite to the obtuse angle.
-template <class S>
-struct Blocks;
-
-struct PlainBlocks {
-  static constexpr Id kNone = TriangleBlock::kNoEdge;
-  static bool attached(Id code, Id k) { return code == k; }
-  template <class Triangles>
-  static Id code(const Triangles& block, std::size_t i) {
-    return block.obtuse[i];
-  }
-  template <class Edges>
-  static double radius(const Edges& block, std::size_t i) {
-    return block.half_length[i];
-  }
-  template <class Edges>
-  static void measure(Edges& block, std::size_t count, const Lattice&) {
-    block.measure(count);
-  }
-};
-
-template <>
-struct Blocks<Plane> : PlainBlocks {
-  using Triangles = TriangleBlock;
-  using Edges = EdgeBlock;
-};
-
-template <>
-struct Blocks<Sheet> : PlainBlocks {
-  using Triangles = SheetTriangles;
-  using Edges = SheetEdges;
-};
-
-template <class P>
-struct PowerBlocks {
-  using Triangles = PowerTriangles<P>;
-  using Edges = PowerEdges<P>;
-  static constexpr Id kNone = 0;
-  static bool attached(Id code, Id k) { return ((code >> k) & 1) != 0; }
-  static Id code(const Triangles& block, std::size_t i) { return block.attached[i]; }
-  static double radius(const Edges& block, std::size_t i) { return block.radius[i]; }
-  static void measure(Edges& block, std::size_t count, const Lattice& lattice) {
-    block.measure(count, lattice);
-  }
-};
-
-template <>
-struct Blocks<WeightedPlane> : PowerBlocks<Point2> {};
-
-template <>
-struct Blocks<WeightedSheet> : PowerBlocks<SheetPoint> {};
 
 // Turns counts (count[i + 1] of part i) into first rows.
 void accumulate(std::vector<std::size_t>& count) {

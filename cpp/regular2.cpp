@@ -11,7 +11,6 @@
 #include "insert2.hpp"
 #include "number2.hpp"
 #include "rounds3.hpp"
-#include "vertex_rows.hpp"
 
 namespace alphamesh {
 namespace {
@@ -168,7 +167,24 @@ void Insertion<S>::run_round(const Id* begin, const Id* end) {
   job_.advance(0.6 * static_cast<double>(end - begin) / static_cast<double>(n_));
 }
 
-// What each row of the input is; attached if a neighbour takes its point into its own cell.
+}  // namespace
+
+template <class S>
+Mesh2 regular2(const SpatialOrder<S>& order, Job& job) {
+  std::vector<Id> corners = corners_of(order, job);
+  if (corners.empty()) return mesh_of_chain(lower_chain(order, job));
+  const Rounds rounds = plan_rounds(order.size);
+  Insertion<S> insertion(order, std::move(corners), job);
+  for (std::size_t r = 0; r + 1 < rounds.start.size(); ++r) {
+    insertion.run_round(rounds.point.data() + rounds.start[r],
+                        rounds.point.data() + rounds.start[r + 1]);
+  }
+  return insertion.finish();
+}
+
+template Mesh2 regular2<WeightedPlane>(const SpatialOrder<WeightedPlane>&, Job&);
+template Mesh2 regular2<WeightedSheet>(const SpatialOrder<WeightedSheet>&, Job&);
+
 template <class S>
 Buffer<Role> roles_of(const SpatialOrder<S>& order, const Mesh2& mesh, std::size_t n, Job& job) {
   constexpr std::uint8_t kSeen = 1, kTaken = 2;
@@ -203,23 +219,10 @@ Buffer<Role> roles_of(const SpatialOrder<S>& order, const Mesh2& mesh, std::size
   return role;
 }
 
-}  // namespace
-
-template <class S>
-Mesh2 regular2(const SpatialOrder<S>& order, Job& job) {
-  std::vector<Id> corners = corners_of(order, job);
-  if (corners.empty()) return mesh_of_chain(lower_chain(order, job));
-  const Rounds rounds = plan_rounds(order.size);
-  Insertion<S> insertion(order, std::move(corners), job);
-  for (std::size_t r = 0; r + 1 < rounds.start.size(); ++r) {
-    insertion.run_round(rounds.point.data() + rounds.start[r],
-                        rounds.point.data() + rounds.start[r + 1]);
-  }
-  return insertion.finish();
-}
-
-template Mesh2 regular2<WeightedPlane>(const SpatialOrder<WeightedPlane>&, Job&);
-template Mesh2 regular2<WeightedSheet>(const SpatialOrder<WeightedSheet>&, Job&);
+template Buffer<Role> roles_of<WeightedPlane>(const SpatialOrder<WeightedPlane>&, const Mesh2&,
+                                              std::size_t, Job&);
+template Buffer<Role> roles_of<WeightedSheet>(const SpatialOrder<WeightedSheet>&, const Mesh2&,
+                                              std::size_t, Job&);
 
 template <class S>
 RegularFiltration2 regular_filtration2(SpatialOrder<S>&& plain, const WeightedRows& rows,

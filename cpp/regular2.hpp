@@ -11,6 +11,7 @@
 #include "parallel.hpp"
 #include "power2.hpp"
 #include "spatial_sort.hpp"
+#include "vertex_rows.hpp"
 
 namespace alphamesh {
 
@@ -43,5 +44,10 @@ RegularFiltration2 regular_filtration2(SpatialOrder<S>&& order, const WeightedRo
 // the cloud alone. S is WeightedPlane or WeightedSheet.
 template <class S>
 Mesh2 regular2(const SpatialOrder<S>& order, Job& job);
+
+// What each of n rows of the input is in that triangulation; attached if a neighbour takes its
+// point into its own cell.
+template <class S>
+Buffer<Role> roles_of(const SpatialOrder<S>& order, const Mesh2& mesh, std::size_t n, Job& job);
 
 }  // namespace alphamesh

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "values2.hpp"
+#include "blocks2.hpp"
 
 namespace alphamesh {
 namespace {
@@ -28,11 +28,12 @@ double doubled_area(Point2 a, Point2 b, Point2 c) {
   return std::fabs(cross_accurate(a, b, c));
 }
 
-// Points are numbered along the curve here, triangles as in the mesh.
-template <class Row>
+// Points are numbered along the curve here, triangles as in the mesh. S is Plane or
+// WeightedPlane.
+template <class Row, class S>
 class Maker {
  public:
-  Maker(const double* v, const Row* rows, const SpatialOrder2& order, Mesh2& mesh,
+  Maker(const double* v, const Row* rows, const SpatialOrder<S>& order, Mesh2& mesh,
         const TileBox<2>& box, double radius)
       : order_(order),
         mesh_(mesh),
@@ -50,21 +51,29 @@ class Maker {
       const double* p = order.exponent == 0 ? &p_[i].x : v + 2 * at;  // along the curve
       const bool inside = box.holds(p);
       row_[i] = rows[at];
-      place_[i] =
-          static_cast<std::uint8_t>(inside | (inside << 1) | ((!inside | box.near(p)) << 2));
+      place_[i] = static_cast<std::uint8_t>(inside | ((!inside | box.near(p)) << 2));
+      if (inside & !kWeighted & (0.0 <= radius)) place_[i] |= kKnown;
     }
   }
 
-  TileShare2<Row> make(Job& job) {
+  TileShare2<Row> make(const TileWeights& weights, Job& job) {
+    if (kWeighted) {
+      least_ = Buffer<double>(order_.size);
+      std::fill(least_.begin(), least_.end(), kInf);
+    }
     measure_triangles(job);
     measure_edges(job);
-    label_components(job);
+    if (kWeighted) find_vertices(weights, job);
+    auto known = [&](std::size_t i) { return (place_[i] & kKnown) != 0; };
+    auto shared = [&](std::size_t i) { return (place_[i] & kShared) != 0; };
+    out_.components = label_components(vertices_, row_.data(), order_.size, known, shared, job);
     label_regions(job);
     return std::move(out_);
   }
 
  private:
-  // Bits of place_: in the tile; known to it; perhaps known to others.
+  static constexpr bool kWeighted = std::is_same_v<S, WeightedPlane>;
+  // Bits of place_: in the tile; known to it, as a vertex; perhaps known to others.
   bool inside(Id v) const { return (place_[static_cast<std::size_t>(v)] & 1) != 0; }
   static constexpr std::uint8_t kKnown = 2, kShared = 4;
   // Bits of known_.
@@ -87,12 +96,12 @@ class Maker {
   void measure_triangles(Job& job) {
     out_.triangles = Columns<Row>(3, mesh_.triangles);
     out_.triangle_radii = Columns<double>(1, mesh_.triangles);
-    TriangleBlock block;
+    typename Blocks<S>::Triangles block;
     std::size_t at[TriangleBlock::kSize];
     auto flush = [&] {
       block.measure(order_.lattice, order_.exponent);
       for (std::size_t i = 0; i < block.count; ++i) {
-        mesh_.slot[8 * at[i] + 7] = block.obtuse[i];
+        mesh_.slot[8 * at[i] + 7] = Blocks<S>::code(block, i);
         radius_[at[i]] = block.radius[i];
         if (block.radius[i] <= limit_) keep_triangle(at[i]);
       }
@@ -104,7 +113,7 @@ class Maker {
       known_[t] = 0;
       area_[t] = 0.0;
       radius_[t] = kInf;
-      mesh_.slot[8 * t + 7] = TriangleBlock::kNoEdge;
+      mesh_.slot[8 * t + 7] = Blocks<S>::kNone;
       if (v[2] == Mesh2::kInfinity) continue;
       at[block.count] = t;
       block.push(p_[v[0]], p_[v[1]], p_[v[2]]);
@@ -134,7 +143,7 @@ class Maker {
     out_.edge_radii = Columns<double>(1, most);
     out_.edge_kinds = Columns<std::int8_t>(1, most);
     const PowerOfTwo unscale(-order_.exponent);
-    EdgeBlock block;
+    typename Blocks<S>::Edges block;
     Id h[EdgeBlock::kSize];
     for (std::size_t t = 0; t < mesh_.triangles;) {
       std::size_t count = 0;
@@ -145,8 +154,10 @@ class Maker {
       for (std::size_t i = 0; i < count; ++i) {
         block.set(i, p_[mesh_.origin(h[i])], p_[mesh_.origin(mesh_.twin(h[i]))]);
       }
-      block.measure(count);
-      for (std::size_t i = 0; i < count; ++i) keep_edge(h[i], unscale * block.half_length[i]);
+      Blocks<S>::measure(block, count, order_.lattice);
+      for (std::size_t i = 0; i < count; ++i) {
+        keep_edge(h[i], unscale * Blocks<S>::radius(block, i));
+      }
       job.poll();
     }
     out_.edge_radii.count = out_.edge_kinds.count = out_.edges.count;
@@ -167,14 +178,23 @@ class Maker {
     return count;
   }
 
-  void keep_edge(Id h, double half_length) {
+  void keep_edge(Id h, double own) {
     const Id g = mesh_.twin(h), base = Mesh2::base(h), other = Mesh2::base(g);
     const std::size_t s = static_cast<std::size_t>(base) / 8,
                       t = static_cast<std::size_t>(other) / 8;
-    const bool attached = (mesh_.slot[base + 7] == (h & 3)) | (mesh_.slot[other + 7] == (g & 3));
-    const double value[2] = {half_length, std::min(radius_[s], radius_[t])};
+    const bool attached = Blocks<S>::attached(mesh_.slot[base + 7], h & 3) |
+                          Blocks<S>::attached(mesh_.slot[other + 7], g & 3);
+    const double enter = std::min(radius_[s], radius_[t]);
+    const double value[2] = {std::min(own, enter), enter};
     const Id u = mesh_.origin(h), v = mesh_.origin(g);
-    if (!(value[attached] <= limit_) || !mine(u, v)) return;
+    if (!(value[attached] <= limit_)) return;
+    if (kWeighted) {
+      double &first = least_[static_cast<std::size_t>(u)],
+             &second = least_[static_cast<std::size_t>(v)];
+      first = std::min(first, value[attached]);
+      second = std::min(second, value[attached]);
+    }
+    if (!mine(u, v)) return;
     const bool here = radius_[s] <= limit_, there = radius_[t] <= limit_;
     const std::size_t to = out_.edges.count++;
     out_.edges.column(0)[to] = std::min(row_[u], row_[v]);
@@ -197,18 +217,19 @@ class Maker {
     out_.boundary_regions.push_back(Mesh2::base(h) / 8);  // the triangle, for now
   }
 
-  void label_components(Job& job) {
-    Buffer<Id> label(order_.size);
-    TileBorder<Row>& border = out_.components;
+  // A vertex that is attached has the least value of its edges, see vertex_rows().
+  void find_vertices(const TileWeights& weights, Job& job) {
+    out_.vertex_radii = Buffer<double>(weights.n);
+    std::fill(out_.vertex_radii.begin(), out_.vertex_radii.end(), kInf);
     for (std::size_t i = 0; i < order_.size; ++i) {
       if ((i & 0xffff) == 0) job.poll();
-      if ((place_[i] & kKnown) == 0) continue;
-      const Id root = vertices_.root(static_cast<Id>(i));  // comes first
-      label[i] =
-          root == static_cast<Id>(i) ? border.count++ : label[static_cast<std::size_t>(root)];
-      if ((place_[i] & kShared) == 0) continue;
-      border.keys.push_back(row_[i]);
-      border.labels.push_back(label[i]);
+      const auto at = static_cast<std::size_t>(order_.row[i]);
+      if ((place_[i] & 1) == 0 || weights.role[at] == Role::kNone) continue;
+      const bool gabriel = weights.role[at] == Role::kGabriel;
+      const double radius = gabriel ? signed_root(0.0 - weights.weight[at]) : least_[i];
+      if (!(radius <= limit_)) continue;
+      out_.vertex_radii[at] = radius;
+      place_[i] |= kKnown;
     }
   }
 
@@ -237,13 +258,14 @@ class Maker {
     for (double& size : out_.region_sizes) size = std::ldexp(size, -2 * order_.exponent - 1);
   }
 
-  const SpatialOrder2& order_;
+  const SpatialOrder<S>& order_;
   Mesh2& mesh_;
-  const Point2* p_;
+  const typename S::Point* p_;
   double limit_;
   Buffer<Row> row_;  // in the whole cloud
   Buffer<std::uint8_t> place_;
   Buffer<double> radius_, area_;  // infinite for ghosts; doubled, and zero unless the tile's
+  Buffer<double> least_;          // of the edges at each point, with weights
   Buffer<std::uint8_t> known_;
   DisjointSets vertices_, cells_;
   TileShare2<Row> out_;
@@ -254,7 +276,15 @@ class Maker {
 template <class Row>
 TileShare2<Row> tile_share2(const double* v, const Row* rows, const SpatialOrder2& order,
                             Mesh2& mesh, const TileBox<2>& box, double radius, Job& job) {
-  return Maker<Row>(v, rows, order, mesh, box, radius).make(job);
+  return Maker<Row, Plane>(v, rows, order, mesh, box, radius).make({nullptr, nullptr, 0}, job);
+}
+
+template <class Row>
+TileShare2<Row> tile_share2(const double* v, const Row* rows,
+                            const SpatialOrder<WeightedPlane>& order, Mesh2& mesh,
+                            const TileBox<2>& box, double radius, const TileWeights& weights,
+                            Job& job) {
+  return Maker<Row, WeightedPlane>(v, rows, order, mesh, box, radius).make(weights, job);
 }
 
 template TileShare2<std::int32_t> tile_share2(const double*, const std::int32_t*,
@@ -263,5 +293,11 @@ template TileShare2<std::int32_t> tile_share2(const double*, const std::int32_t*
 template TileShare2<std::int64_t> tile_share2(const double*, const std::int64_t*,
                                               const SpatialOrder2&, Mesh2&, const TileBox<2>&,
                                               double, Job&);
+template TileShare2<std::int32_t> tile_share2(const double*, const std::int32_t*,
+                                              const SpatialOrder<WeightedPlane>&, Mesh2&,
+                                              const TileBox<2>&, double, const TileWeights&, Job&);
+template TileShare2<std::int64_t> tile_share2(const double*, const std::int64_t*,
+                                              const SpatialOrder<WeightedPlane>&, Mesh2&,
+                                              const TileBox<2>&, double, const TileWeights&, Job&);
 
 }  // namespace alphamesh

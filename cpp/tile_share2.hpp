@@ -8,8 +8,10 @@
 #include "delaunay2.hpp"
 #include "memory.hpp"
 #include "parallel.hpp"
+#include "power2.hpp"
 #include "spatial_sort.hpp"
 #include "tile.hpp"
+#include "vertex_rows.hpp"
 
 namespace alphamesh {
 
@@ -25,6 +27,15 @@ struct TileShare2 {
   std::vector<std::int32_t> boundary_regions;  // (b,)
   std::vector<double> region_sizes;
   TileBorder<Row> components, regions;
+  Buffer<double> vertex_radii;  // with weights: of each point of the input, infinity if it is no
+                                // vertex of the tile up to the radius
+};
+
+// Role and weight of each of n points of the input.
+struct TileWeights {
+  const Role* role;
+  const double* weight;
+  std::size_t n;
 };
 
 // `v` are the points that `order` and `mesh` were made of, `rows` their rows in the whole
@@ -33,5 +44,12 @@ struct TileShare2 {
 template <class Row>
 TileShare2<Row> tile_share2(const double* v, const Row* rows, const SpatialOrder2& order,
                             Mesh2& mesh, const TileBox<2>& box, double radius, Job& job);
+
+// The same of a weighted cloud: of the mesh of regular2(), and with its values.
+template <class Row>
+TileShare2<Row> tile_share2(const double* v, const Row* rows,
+                            const SpatialOrder<WeightedPlane>& order, Mesh2& mesh,
+                            const TileBox<2>& box, double radius, const TileWeights& weights,
+                            Job& job);
 
 }  // namespace alphamesh

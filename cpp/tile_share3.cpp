@@ -76,13 +76,14 @@ class Maker {
         known_(view.tetrahedron_count),
         vertices_(view.n),
         cells_(view.tetrahedron_count) {
+    const TileVertices vertices = view.vertices(radius);
     const PowerOfTwo factor(exponent_);
     for (std::size_t i = 0; i < view.n; ++i) {
       const double* p = view.points + 3 * i;
       const bool inside = i < view.real && box.holds(p);
       p_[i] = {factor * p[0], factor * p[1], factor * p[2]};
       place_[i] = inside ? kInside | (box.near(p) ? kShared : 0) : kShared;
-      if (inside && view.representative[i] == static_cast<Id>(i)) place_[i] |= kKnown;
+      if (inside && vertices.has(i)) place_[i] |= kKnown;
     }
   }
 
@@ -94,15 +95,17 @@ class Maker {
     DisjointSets fronts(4 * free_count_);
     keep_triangles(fronts, index, job);
     link_along(fronts, index, job);
-    label_components(job);
+    auto known = [&](std::size_t i) { return has(i, kKnown); };
+    auto shared = [&](std::size_t i) { return has(i, kShared); };
+    out_.components = label_components(vertices_, view_.rows, view_.n, known, shared, job);
     label_regions(job);
     label_fronts(fronts, job);
     return std::move(out_);
   }
 
  private:
-  // Bits of place_: in the tile; known to it; perhaps known to others; at the corner of a
-  // tetrahedron that is not in the complex.
+  // Bits of place_: in the tile; known to it, as a vertex; perhaps known to others; at the
+  // corner of a tetrahedron that is not in the complex.
   static constexpr std::uint8_t kInside = 1, kKnown = 2, kShared = 4, kOpen = 8;
   // Bits of known_: the tetrahedron matters; it is the tile's.
   static constexpr std::uint8_t kCell = 1, kMine = 2;
@@ -274,21 +277,6 @@ class Maker {
     }
   }
 
-  void label_components(Job& job) {
-    Buffer<Id> label(view_.n);
-    TileBorder<Row>& border = out_.components;
-    for (std::size_t i = 0; i < view_.n; ++i) {
-      if ((i & 0xffff) == 0) job.poll();
-      if (!has(i, kKnown)) continue;
-      const Id root = vertices_.root(static_cast<Id>(i));
-      label[i] =
-          root == static_cast<Id>(i) ? border.count++ : label[static_cast<std::size_t>(root)];
-      if (!has(i, kShared)) continue;
-      border.keys.push_back(view_.rows[i]);
-      border.labels.push_back(label[i]);
-    }
-  }
-
   void label_regions(Job& job) {
     Buffer<Id> label(view_.tetrahedron_count);
     TileBorder<Row>& border = out_.regions;
@@ -322,7 +310,9 @@ class Maker {
       if ((t & 0xffff) == 0) job.poll();
       if (free_[t] < 0) continue;
       for (Id i = 0; i < 4; ++i) {
-        if (!inside(view_.tetrahedra[4 * t + static_cast<std::size_t>(i)])) continue;
+        const auto v =
+            static_cast<std::size_t>(view_.tetrahedra[4 * t + static_cast<std::size_t>(i)]);
+        if (!has(v, kInside) || !has(v, kKnown)) continue;  // with weights, some are not there
         const Id at = 4 * free_[t] + i, root = fronts.root(at);
         label[static_cast<std::size_t>(at)] =
             root == at ? border.count++ : label[static_cast<std::size_t>(root)];

@@ -22,6 +22,9 @@ struct TileView3 {
   std::size_t edge_count, triangle_count, tetrahedron_count;
   const std::int32_t* triangle_tetrahedra;
   const std::int32_t* representative;  // (n,)
+  const double* vertex_radii;          // (n,) with weights, infinity for what is no vertex; or null
+
+  TileVertices vertices(double radius) const { return {representative, vertex_radii, radius}; }
 };
 
 // See TileShare2.

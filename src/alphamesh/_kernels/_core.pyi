@@ -345,6 +345,7 @@ _Points = tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]
 
 def tile2(
     points: NDArray[np.float64],
+    weights: NDArray[np.float64] | None,
     rows: NDArray[np.int64],
     bounds: NDArray[np.float64],
     radius: float,
@@ -353,6 +354,7 @@ def tile2(
 ) -> tuple[
     _Points,
     NDArray[np.int64],
+    NDArray[np.float64] | None,
     NDArray[np.int64],
     NDArray[np.float64],
     NDArray[np.int8],
@@ -369,6 +371,7 @@ def tile_share3(
     real: int,
     rows: NDArray[np.int64],
     representative: NDArray[np.int32],
+    vertex_radii: NDArray[np.float64] | None,
     edges: NDArray[np.int32],
     edge_radii: NDArray[np.float64],
     triangles: NDArray[np.int32],
@@ -382,6 +385,7 @@ def tile_share3(
 ) -> tuple[
     _Points,
     NDArray[np.int64],
+    NDArray[np.float64] | None,
     NDArray[np.int64],
     NDArray[np.float64],
     NDArray[np.int64],

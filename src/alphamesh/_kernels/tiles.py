@@ -39,6 +39,8 @@ class Share2(NamedTuple):
     """the points in the box, duplicates and all"""
     vertices: CountArray
     """(m_0,) ascending"""
+    vertex_radii: FloatArray | None
+    """(m_0,) with weights; None without"""
     edges: CountArray
     """(m_1, 2) column by column"""
     edge_radii: FloatArray
@@ -63,6 +65,7 @@ def tile2(  # noqa: PLR0913, PLR0917 (a tile, its points and the radius)
     radius: float,
     threads: int | None = None,
     progress: Progress | None = None,
+    weights: FloatArray | None = None,
 ) -> Share2:
     """Return the simplices of value at most `radius` that begin in a box.
 
@@ -75,8 +78,12 @@ def tile2(  # noqa: PLR0913, PLR0917 (a tile, its points and the radius)
         Lower and upper corner of the box, which is half open; other boxes may know points
         that are not above the third or not below the last one.
     radius : float
+        A signed root of a power value if there are weights; without them, nothing is there
+        below zero.
     threads : int, optional
     progress : callable, optional
+    weights : (n,) float64, C-contiguous, optional
+        Squared radii of balls.
 
     Raises
     ------
@@ -86,7 +93,9 @@ def tile2(  # noqa: PLR0913, PLR0917 (a tile, its points and the radius)
     threads = resolve_threads(threads)
     _check_progress(progress)
     share = Share2(
-        *_core.tile2(points, np.ascontiguousarray(rows), bounds, radius, threads, progress)
+        *_core.tile2(
+            points, weights, np.ascontiguousarray(rows), bounds, radius, threads, progress
+        )
     )
     _close(share)
     return share
@@ -106,6 +115,7 @@ class Share3(NamedTuple):
 
     own: Points
     vertices: CountArray
+    vertex_radii: FloatArray | None
     edges: CountArray
     edge_radii: FloatArray
     triangles: CountArray
@@ -135,6 +145,7 @@ def tile_share3(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
     bounds: FloatArray,
     radius: float,
     progress: Progress | None = None,
+    vertex_radii: FloatArray | None = None,
 ) -> Share3:
     """Return the simplices of a filtration in space, up to `radius`, that begin in a box.
 
@@ -152,6 +163,8 @@ def tile_share3(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
         See :func:`tile2`.
     radius : float
     progress : callable, optional
+    vertex_radii : (n,) float64, optional
+        With weights: the value of each point, infinity for what is no vertex.
     """
     _check_progress(progress)
     (_, edges, triangles, tetrahedra), (_, edge_radii, triangle_radii, cell_radii) = (
@@ -164,6 +177,7 @@ def tile_share3(  # noqa: PLR0913, PLR0917 (the arrays of a filtration)
             real,
             np.ascontiguousarray(rows),
             representative,
+            vertex_radii,
             edges,
             edge_radii,
             triangles,

@@ -16,6 +16,7 @@ from alphamesh.tiles.pieces import Boundary, Piece, solve
 from alphamesh.tiles.run import run
 from alphamesh.tiles.status import Status, status
 from alphamesh.tiles.tiling import Tiling, plan
+from alphamesh.tiles.weighing import WeightRange
 
 __all__ = [
     "Boundary",
@@ -28,6 +29,7 @@ __all__ = [
     "Summary",
     "TiledComplex",
     "Tiling",
+    "WeightRange",
     "choose_radius",
     "dataset",
     "finish",

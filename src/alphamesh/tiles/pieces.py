@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
 from alphamesh._kernels import BadCoordinates
 from alphamesh._kernels.tiles import tile2, tile_share3
+from alphamesh._kernels.weighted import regular3
+from alphamesh._weights import shifted_radii
+from alphamesh.errors import WeightsError
 from alphamesh.filtration import filtration
 from alphamesh.filtration3d import Filtration3D
 from alphamesh.measures import total_length, triangle_areas
-from alphamesh.points import coordinate_error
+from alphamesh.points import births_of_rows, coordinate_error, merged_rows
 from alphamesh.tiles.fronts import FRAME, with_frame
 from alphamesh.tiles.labels import Border
 from alphamesh.tiles.tiling import Tiling, halo_width
+from alphamesh.tiles.weighing import WeightRange
 
 if TYPE_CHECKING:
     from alphamesh._arrays import CountArray, FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
+    from alphamesh._kernels.tiles import Share2, Share3
 
 __all__ = ["Boundary", "Piece", "solve"]
 
@@ -63,11 +68,12 @@ class Piece(Record):
         given to :func:`solve` are.
     points : (n, d) float64
     representative : (n,) int64
-        The lowest row with the same coordinates.
+        The lowest row with the same coordinates; with weights, the lowest of the heaviest.
     simplices : tuple of (m_k, k + 1) int64
-        Vertices, edges, triangles (and tetrahedra), ascending within a simplex.
+        Vertices, edges, triangles (and tetrahedra), ascending within a simplex. With
+        weights, points that are hidden or come later than the radius are no vertices.
     radii : tuple of (m_k,) float64
-        Their filtration values, at most the radius.
+        Their filtration values, at most the radius; see :class:`alphamesh.Filtration`.
     facet_kinds : (m_(d-1),) int8
         :class:`~alphamesh.classify.SimplexKind` of each facet at the radius.
     boundary : Boundary
@@ -80,6 +86,8 @@ class Piece(Record):
         How what the tile knows hangs together: vertices by edges, cells by facets, and
         in space the parts of the complement around vertices (see
         :mod:`alphamesh.tiles.fronts`); in the plane these are none.
+    weights : (n,) float64 or None
+        Those of `points`.
     """
 
     tile: int
@@ -95,10 +103,26 @@ class Piece(Record):
     components: Border
     regions: Border
     fronts: Border
+    weights: FloatArray | None = None
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{len(rows):,}" for rows in self.simplices)
         return f"<Piece: tile {self.tile}, {counts} simplices>"
+
+
+class _Known(NamedTuple):
+    """What a tile knows: its points and those of its halo, the box, and up to where to go."""
+
+    rows: CountArray
+    points: FloatArray
+    weights: FloatArray | None
+    """None if balls are of equal size in the whole cloud"""
+    bounds: FloatArray
+    reach: float
+    radius: float
+    """of the complex without weights if all are equal"""
+    threads: int | None
+    progress: Progress | None
 
 
 def solve(  # noqa: PLR0913 (a tile, its points and the radius)
@@ -108,6 +132,8 @@ def solve(  # noqa: PLR0913 (a tile, its points and the radius)
     points: FloatArray,
     radius: float,
     *,
+    weights: FloatArray | None = None,
+    weight_range: WeightRange | None = None,
     threads: int | None = 1,
     progress: Progress | None = None,
 ) -> Piece:
@@ -122,103 +148,147 @@ def solve(  # noqa: PLR0913 (a tile, its points and the radius)
     tiling : Tiling
     tile : int
     rows : (n,) int64 or int32
-        Rows in the whole cloud, ascending: of the tile and its halo.
+        Rows in the whole cloud, ascending: of the tile and its halo, which is twice as wide
+        as `radius`, or with weights as ``weight_range.reach(radius)``.
     points : (n, d) float64
     radius : float
-        Finite.
+        Finite; with weights a signed root of a power value, see
+        :class:`alphamesh.Filtration`.
+    weights : (n,) float64, optional
+        Squared radii of balls.
+    weight_range : WeightRange, optional
+        Of the whole cloud; needed with `weights`.
     threads : int, optional
     progress : callable, optional
 
     Returns
     -------
     Piece
+
+    Raises
+    ------
+    WeightsError
+        If weights come without their range, or do not lie in it.
     """
-    bounds = tiling.bounds(tile, radius)
-    solved = _in_space if tiling.dimension == 3 else _in_plane
-    return solved(tile, rows, points, bounds, radius, threads, progress)
-
-
-def _in_plane(  # noqa: PLR0913, PLR0917 (see solve)
-    tile: int,
-    rows: CountArray,
-    points: FloatArray,
-    bounds: FloatArray,
-    radius: float,
-    threads: int | None,
-    progress: Progress | None,
-) -> Piece:
-    try:
-        share = tile2(points, rows, bounds, radius, threads, progress)
-    except BadCoordinates:
-        raise coordinate_error(points) from None
-    edges = share.boundary[:, :2]
-    return Piece(
-        tile,
-        *share.own,
-        (share.vertices[:, np.newaxis], share.edges, share.triangles),
-        (read_only(np.zeros(len(share.vertices))), share.edge_radii, share.triangle_radii),
-        share.edge_kinds,
-        Boundary(
-            read_only(rows.take(edges)),
-            read_only(rows.take(share.boundary[:, 2])),
-            read_only(points.take(share.boundary, axis=0)),
-            share.boundary_regions,
-        ),
-        total_length(points, edges),
-        share.region_sizes,
-        Border(*share.components),
-        Border(*share.regions),
-        Border(0, np.empty((0, 4), dtype=np.int64), np.empty(0, dtype=np.int64)),
+    reach, plain = radius, radius if weights is None else None
+    if weights is not None:
+        if weight_range is None or not weight_range.covers(weights):
+            raise WeightsError(
+                "weight_range must be that of the weights of the whole cloud: "
+                "WeightRange.of(weights)"
+            )
+        reach, plain = weight_range.reach(radius), weight_range.plain_radius(radius)
+    known = _Known(
+        rows,
+        points,
+        weights if plain is None else None,
+        tiling.bounds(tile, reach),
+        reach,
+        radius if plain is None else plain,
+        threads,
+        progress,
     )
+    solved = _in_space if tiling.dimension == 3 else _in_plane
+    fields = solved(known)
+    own_rows = fields["rows"]
+    weight = None
+    if weights is not None and weight_range is not None:
+        weight = read_only(weights.take(np.searchsorted(rows, own_rows)))
+        if plain is not None:
+            equal = weight_range.greatest
+            fields["radii"] = tuple(shifted_radii(r, equal) for r in fields["radii"])
+    return Piece(tile=tile, weights=weight, **fields)
 
 
-def _in_space(  # noqa: PLR0913, PLR0917 (see solve)
-    tile: int,
-    rows: CountArray,
-    points: FloatArray,
-    bounds: FloatArray,
-    radius: float,
-    threads: int | None,
-    progress: Progress | None,
-) -> Piece:
+def _in_plane(known: _Known) -> dict[str, Any]:
+    rows, points, weights, bounds, _, radius, threads, progress = known
+    try:
+        share = tile2(points, rows, bounds, radius, threads, progress, weights)
+    except BadCoordinates:
+        raise coordinate_error(points, weights) from None
+    simplices = share.edges, share.triangles
+    radii = share.edge_radii, share.triangle_radii
+    nothing = Border(0, np.empty((0, 4), dtype=np.int64), np.empty(0, dtype=np.int64))
+    return _fields(known, share, simplices, radii) | {
+        "facet_kinds": share.edge_kinds,
+        "boundary_size": total_length(points, share.boundary[:, :2]),
+        "fronts": nothing,
+    }
+
+
+def _in_space(known: _Known) -> dict[str, Any]:
+    rows, points, _, bounds, reach, radius, _, progress = known
     # Too far away to matter, except for what is outside.
-    framed = with_frame(points, halo_width(radius))
+    framed = with_frame(points, halo_width(reach))
     frame = np.full(FRAME, np.iinfo(rows.dtype).max, dtype=rows.dtype)
-    found = filtration(framed, threads=threads, progress=progress)
-    assert isinstance(found, Filtration3D)
+    representative, simplices, radii, cofaces, births = _filtered(known, framed)
     share = tile_share3(
-        found.points,
+        framed,
         len(points),
         np.append(rows, frame),
-        found.representative,
-        found.simplices,
-        found.radii,
-        found.triangle_tetrahedra,
+        representative,
+        simplices,
+        radii,
+        cofaces,
         bounds,
         radius,
         progress,
+        births,
     )
-    facets = share.boundary[:, :3]
-    return Piece(
-        tile,
-        *share.own,
-        (share.vertices[:, np.newaxis], share.edges, share.triangles, share.tetrahedra),
-        (
-            read_only(np.zeros(len(share.vertices))),
-            share.edge_radii,
-            share.triangle_radii,
-            share.tetrahedron_radii,
-        ),
-        share.triangle_kinds,
-        Boundary(
-            read_only(rows.take(facets)),
-            read_only(rows.take(share.boundary[:, 3])),
-            read_only(points.take(share.boundary, axis=0)),
-            share.boundary_regions,
-        ),
-        float(triangle_areas(points, facets).sum()),
-        share.region_sizes,
-        Border(*share.components),
-        Border(*share.regions),
-        Border(*share.fronts),
+    own = share.edges, share.triangles, share.tetrahedra
+    values = share.edge_radii, share.triangle_radii, share.tetrahedron_radii
+    return _fields(known, share, own, values) | {
+        "facet_kinds": share.triangle_kinds,
+        "boundary_size": float(triangle_areas(points, share.boundary[:, :3]).sum()),
+        "fronts": Border(*share.fronts),
+    }
+
+
+def _filtered(known: _Known, framed: FloatArray) -> tuple[Any, ...]:
+    """Return representatives, simplices, radii and cofaces of framed points, and births."""
+    if known.weights is None:
+        found = filtration(framed, threads=known.threads, progress=known.progress)
+        assert isinstance(found, Filtration3D)
+        parts = found.representative, found.simplices, found.radii
+        return *parts, found.triangle_tetrahedra, None
+    # The corners of the frame are no heavier than the rest, and on the hull: never hidden.
+    least = float(known.weights.min(initial=np.inf)) if len(known.weights) else 0.0
+    weights = np.append(known.weights, np.full(FRAME, least))
+    try:
+        merged, _, simplices, radii, cofaces = regular3(
+            framed, weights, known.threads, known.progress
+        )
+    except BadCoordinates:
+        raise coordinate_error(framed, weights) from None
+    births = births_of_rows(weights, simplices[0].reshape(-1, 1), radii[0], len(framed))
+    return merged_rows(merged, len(framed))[0], simplices, radii, cofaces, births
+
+
+def _fields(
+    known: _Known,
+    share: Share2 | Share3,
+    simplices: tuple[CountArray, ...],
+    radii: tuple[FloatArray, ...],
+) -> dict[str, Any]:
+    """Return what pieces in the plane and in space have in common."""
+    own, points, representative = share.own
+    first = share.vertex_radii
+    if first is None:
+        first = read_only(np.zeros(len(share.vertices)))
+    boundary = Boundary(
+        read_only(known.rows.take(share.boundary[:, :-1])),
+        read_only(known.rows.take(share.boundary[:, -1])),
+        read_only(known.points.take(share.boundary, axis=0)),
+        share.boundary_regions,
     )
+    return {
+        "rows": own,
+        "points": points,
+        "representative": representative,
+        "simplices": (share.vertices[:, np.newaxis], *simplices),
+        "radii": (first, *radii),
+        "boundary": boundary,
+        "region_sizes": share.region_sizes,
+        "components": Border(*share.components),
+        "regions": Border(*share.regions),
+    }
