@@ -20,6 +20,7 @@ from alphamesh.cli.outputs import Output, Outputs, check_targets, write_bytes
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, number, print_json, print_lines, size_text
 from alphamesh.cli.types import AUTO
+from alphamesh.cli.weights import weights_option
 
 if TYPE_CHECKING:
     from alphamesh.tiles import Summary, TiledComplex
@@ -29,6 +30,7 @@ __all__ = ["command"]
 _EXAMPLES = (
     "alphamesh tiles run lidar/ --radius 2.5 -o tiles",
     "alphamesh tiles run points.parquet --radius auto --workers 4 -o tiles",
+    "alphamesh tiles run atoms.parquet --dimension 3 --weights w --radius 0 -o tiles",
     "alphamesh tiles run lidar/ --radius 2.5 --cluster tcp://head:8786 -o tiles",
     "alphamesh tiles merge tiles -o outline.geojson",
 )
@@ -61,10 +63,12 @@ def command() -> None:
 )  # fmt: skip
 @click.option(
     "-r", "--radius", required=True,
-    help="Radius in the units of the points, or auto: chosen by topology in sampled tiles.",
+    help="Radius in the units of the points, or auto: chosen by topology in sampled tiles. "
+    "With --weights it may be negative, and auto is 0 if some are positive.",
 )  # fmt: skip
 @click.option("--columns", metavar="X,Y[,Z]", help="The columns that hold the coordinates.")
 @click.option("--dimension", type=click.IntRange(2, 3), help="Read so many coordinates.")
+@weights_option
 @click.option(
     "--tile-points", type=click.IntRange(1), default=500_000, show_default=True, metavar="N",
     help="About how many points a tile shall have.",
@@ -84,6 +88,7 @@ def _run(  # noqa: PLR0913, PLR0917 (one option each)
     radius: str,
     columns: str | None,
     dimension: int | None,
+    weights: str | int | None,
     tile_points: int,
     workers: int | None,
     cluster: str | None,
@@ -101,7 +106,7 @@ def _run(  # noqa: PLR0913, PLR0917 (one option each)
     if sum(choice is not None for choice in (threads, workers, cluster)) > 1:
         raise click.UsageError("give one of --threads, --workers and --cluster, not several")
     with Steps(quiet=quiet) as steps:
-        found = dataset(data, columns=columns, dimension=dimension)
+        found = dataset(data, columns=columns, dimension=dimension, weights=weights)
         reason = "Given on the command line."
         if radius == AUTO:
             with steps.step("Choosing the radius"):

@@ -22,6 +22,7 @@ __all__ = [
     "Wanted",
     "choose_columns",
     "exact_floats",
+    "find_column",
     "same_name",
     "stack",
     "wanted_columns",
@@ -114,7 +115,7 @@ def choose_columns(
     """
     dimension = wanted.dimension
     if wanted.columns:
-        found = tuple(_find(source, item, names, width) for item in wanted.columns)
+        found = tuple(find_column(source, item, names, width) for item in wanted.columns)
         if len(set(found)) < len(found):
             raise ParameterError(f"columns={wanted.columns!r} names one column twice")
         return found
@@ -131,7 +132,9 @@ def choose_columns(
     return tuple(range(dimension))
 
 
-def _find(source: Source, item: str | int, names: Sequence[str] | None, width: int) -> int:
+def find_column(
+    source: Source, item: str | int, names: Sequence[str] | None, width: int
+) -> int:
     """Return the number of one column asked for by its name or number."""
     listed = _columns_text(names, width)
     if isinstance(item, str):

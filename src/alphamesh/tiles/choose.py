@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from alphamesh._arrays import read_only
-from alphamesh.errors import EmptyCloudError, ParameterError
+from alphamesh.errors import EmptyCloudError, ParameterError, UnweightedOnlyError
 from alphamesh.filtration import filtration
 from alphamesh.radius import choose_radius as choose_for_one
 from alphamesh.tiles.tiling import plan
+from alphamesh.tiles.weighing import WeightRange
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
@@ -63,6 +64,9 @@ def choose_radius(
     made larger by what the gaps between more points are wider by chance. Two passes over
     the data.
 
+    With weights, the default rule is another one, as in memory: 0, where each ball has the
+    size that its weight gives it. One pass tells whether some have a size at all.
+
     Parameters
     ----------
     data : Dataset
@@ -79,6 +83,8 @@ def choose_radius(
     ------
     EmptyCloudError
         If there are no points.
+    UnweightedOnlyError
+        If there are weights, and none is positive.
     """
     if samples < 1 or tile_points < 1:
         raise ParameterError(
@@ -86,6 +92,10 @@ def choose_radius(
         )
     if data.count == 0:
         raise EmptyCloudError("no radius can be chosen for a cloud without points")
+    if data.weights is not None:
+        given = _of_given_balls(data)
+        if given is not None:
+            return given
     rng = np.random.default_rng(seed)
     share = min(1.0, _SAMPLE / data.count)
     sample = []
@@ -104,6 +114,24 @@ def choose_radius(
             found.append(points.compress(where == tile, axis=0))
     clouds = [np.concatenate(found) for found in parts.values()]
     return _agreed([cloud for cloud in clouds if len(cloud)], data.count)
+
+
+def _of_given_balls(data: Dataset) -> SampledRadius | None:
+    """Return the radius at which balls have their given sizes; None if all weights are 0."""
+    ranges = [WeightRange.of(chunk.read_weights()) for chunk in data.chunks]
+    greatest = max(part.greatest for part in ranges)
+    if greatest == min(part.least for part in ranges) == 0.0:
+        return None
+    if greatest <= 0.0:
+        raise UnweightedOnlyError(
+            "no radius is chosen in tiles for weights none of which is positive; give one, "
+            "such as AlphaComplex(points, weights=weights).choose_radius() of a part finds"
+        )
+    reason = (
+        "Each ball has the size that its weight gives it: at radius 0, the complex is the "
+        "dual of the union of these balls."
+    )
+    return SampledRadius(0.0, 0.0, 0.0, read_only(np.zeros(1)), 1, data.count, reason)
 
 
 def _agreed(clouds: list[FloatArray], count: int) -> SampledRadius:

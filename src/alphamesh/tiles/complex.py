@@ -90,14 +90,17 @@ class TiledComplex:
         simplices : (m, dimension + 1) int64
             In the order of their rows.
         radii : (m,) float64
+            With weights, signed roots of power values, those of vertices among them.
         """
         if dimension not in range(self.tiling.dimension + 1):
             raise ParameterError(
                 f"dimension must be from 0 to {self.tiling.dimension}; got {dimension!r}"
             )
         if dimension == 0:
-            rows = np.concatenate([_distinct(table) for table in self.tables("vertices")])
-            return read_only(np.sort(rows)[:, np.newaxis]), read_only(np.zeros(len(rows)))
+            found = [_vertices_of(table) for table in self.tables("vertices")]
+            rows, radii = (np.concatenate(part) for part in zip(*found, strict=True))
+            order = np.argsort(rows)
+            return read_only(rows.take(order)[:, np.newaxis]), read_only(radii.take(order))
         tables = list(self.tables(TABLES[dimension]))
         columns = [
             np.concatenate([table.column(name).to_numpy() for table in tables])
@@ -173,8 +176,12 @@ class TiledComplex:
         )
 
 
-def _distinct(table: Any) -> CountArray:
-    """Return the rows that stand for themselves."""
+def _vertices_of(table: Any) -> tuple[CountArray, FloatArray]:
+    """Return the rows of a table that are vertices, and since when."""
     rows = table.column("row").to_numpy()
-    found: CountArray = rows[rows == table.column("representative").to_numpy()]
-    return found
+    if "radius" not in table.column_names:
+        kept = rows.compress(rows == table.column("representative").to_numpy())
+        return kept, np.zeros(len(kept))
+    radii = table.column("radius").to_numpy()
+    there = ~np.isnan(radii)
+    return rows.compress(there), radii.compress(there)

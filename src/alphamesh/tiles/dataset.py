@@ -4,29 +4,32 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alphamesh.errors import FileReadError, MissingLibraryError, NonFiniteError, rows_text
-from alphamesh.io._columns import Columns, Wanted, choose_columns, wanted_columns
-from alphamesh.io._laz import laz_backend
-from alphamesh.io._scans import refuse_counts
+from alphamesh.errors import (
+    FileReadError,
+    NonFiniteError,
+    ParameterError,
+    WeightsError,
+    rows_text,
+)
+from alphamesh.io._columns import Columns, find_column, wanted_columns
 from alphamesh.io._sources import open_source
+from alphamesh.tiles.formats import FORMATS, kind_of
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
 
 __all__ = ["DATASET_FORMATS", "Chunk", "Dataset", "dataset"]
 
-DATASET_FORMATS: tuple[str, ...] = ("npy", "parquet", "las", "laz")
+DATASET_FORMATS: tuple[str, ...] = tuple(FORMATS)
 """Extensions of files that :func:`dataset` reads; a folder holds files of one of them."""
 
 _CHUNK = 2_000_000
-_AXES = ("x", "y", "z")
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +48,8 @@ class Chunk:
         Row group of a Parquet file.
     columns : tuple of int
         Numbers of the columns that are the coordinates.
+    weight : int or None
+        Number of the column of weights, if there is one.
     """
 
     number: int
@@ -54,6 +59,7 @@ class Chunk:
     count: int
     part: int
     columns: tuple[int, ...]
+    weight: int | None = None
 
     def read(self) -> FloatArray:
         """Return the points of the chunk, ``(count, d)`` float64.
@@ -66,15 +72,60 @@ class Chunk:
             If a coordinate is NaN or infinite; the message names rows of the dataset.
         """
         points = np.ascontiguousarray(self._points(), dtype=np.float64)
-        if not np.isfinite(points).all():
-            poor = np.flatnonzero(~np.isfinite(points).all(axis=1))
-            rows = poor[:6] + self.first_row
-            raise NonFiniteError(
-                f"NaN or infinite coordinates in {rows_text(rows, total=len(poor))} of "
-                f"{self.path}; remove these rows",
-                rows=rows,
-            )
+        self._refuse_poor(points, NonFiniteError, "coordinates")
         return points
+
+    def read_weighted(self) -> FloatArray:
+        """Return the points and, if there are weights, these as one column more.
+
+        Returns
+        -------
+        (count, d) or (count, d + 1) float64
+
+        Raises
+        ------
+        FileReadError, NonFiniteError
+            See :meth:`read`.
+        WeightsError
+            If a weight is NaN or infinite; the message names rows of the dataset.
+        """
+        if self.weight is None:
+            return self.read()
+        table = np.ascontiguousarray(self._with(*self.columns, self.weight)._points(), float)
+        self._refuse_poor(table[:, :-1], NonFiniteError, "coordinates")
+        self._refuse_poor(table[:, -1:], WeightsError, "weights")
+        return table
+
+    def read_weights(self) -> FloatArray:
+        """Return the weights alone, ``(count,)`` float64; none if there are none.
+
+        Raises
+        ------
+        FileReadError, WeightsError
+            See :meth:`read_weighted`.
+        """
+        if self.weight is None:
+            return np.empty(0)
+        table = np.ascontiguousarray(self._with(self.weight)._points(), dtype=np.float64)
+        self._refuse_poor(table, WeightsError, "weights")
+        return table[:, 0]
+
+    def _with(self, *columns: int) -> Chunk:
+        return replace(self, columns=columns, weight=None)
+
+    def _refuse_poor(
+        self, table: FloatArray, error: type[NonFiniteError | WeightsError], what: str
+    ) -> None:
+        """Raise if a number is NaN or infinite."""
+        if np.isfinite(table).all():
+            return
+        poor = np.flatnonzero(~np.isfinite(table).all(axis=1))
+        rows = poor[:6] + self.first_row
+        raise error(
+            f"NaN or infinite {what} in {rows_text(rows, total=len(poor))} of "
+            f"{self.path}; remove these rows",
+            rows=rows,
+        )
 
     def sample(self, count: int) -> FloatArray:
         """Return some points of the chunk, the same ones each time.
@@ -99,7 +150,7 @@ class Chunk:
     def _points(self) -> Any:
         """Return the rows of the chunk, perhaps not read yet."""
         try:
-            points = _READERS[_kind(self.path)](self)
+            points = FORMATS[kind_of(self.path)].read(self)
         except (OSError, ValueError) as error:
             if isinstance(error, FileReadError):
                 raise
@@ -126,12 +177,15 @@ class Dataset:
         How many coordinates a point has.
     digest : str
         Changes when a file is added, removed or changed.
+    weights : str or None
+        The column of weights, by its name or its number, if there is one.
     """
 
     chunks: tuple[Chunk, ...]
     count: int
     dimension: int
     digest: str
+    weights: str | None = None
 
 
 def dataset(
@@ -139,6 +193,7 @@ def dataset(
     *,
     columns: Columns = None,
     dimension: int | None = None,
+    weights: str | int | None = None,
     chunk_points: int = _CHUNK,
 ) -> Dataset:
     """Describe a cloud on disk: a file, or a folder of files with equal columns.
@@ -152,6 +207,9 @@ def dataset(
         Of Parquet files, see :func:`alphamesh.read_points`; of NPY files, numbers.
     dimension : {2, 3}, optional
         How many coordinates to read: by default as many as `columns`, else 2.
+    weights : str or int, optional
+        The column, by name or by number from 0, of the squared radii of balls, of any sign:
+        then the complex is the weighted one. By default all balls are of equal size.
     chunk_points : int
         How many rows to read at a time; of Parquet, whole row groups.
 
@@ -165,22 +223,51 @@ def dataset(
         If there is no such file, or it is not what its name says.
     MissingLibraryError
         If the format needs a library that is not installed.
+    ParameterError
+        If `columns`, `dimension` and `weights` do not fit together.
     """
     files = _files(Path(path))
     described: list[Chunk] = []
     wanted = wanted_columns(columns, dimension)._replace(space=False)
-    digest = hashlib.sha256(repr(wanted).encode())
+    heavy = None if weights is None else _column_of_weights(weights)
+    digest = hashlib.sha256(repr(wanted if heavy is None else (wanted, heavy)).encode())
     row = 0
     for file in files:
         state = file.stat()
         digest.update(f"{file.name} {state.st_size} {state.st_mtime_ns}".encode())
-        for start, count, part, chosen in _PARTS[_kind(file)](file, wanted, chunk_points):
+        weight = None
+        for start, count, part, chosen in FORMATS[kind_of(file)].parts(
+            file, wanted, chunk_points
+        ):
+            if heavy is not None and weight is None:
+                weight = _find_weights(file, heavy, chosen)
             if count:
                 described.append(
-                    Chunk(len(described), str(file), row, start, count, part, chosen)
+                    Chunk(len(described), str(file), row, start, count, part, chosen, weight)
                 )
             row += count
-    return Dataset(tuple(described), row, wanted.dimension, digest.hexdigest())
+    return Dataset(tuple(described), row, wanted.dimension, digest.hexdigest(), heavy)
+
+
+def _column_of_weights(weights: object) -> str:
+    if isinstance(weights, bool) or not isinstance(weights, str | int | np.integer):
+        raise ParameterError(
+            "weights must be the name of a column of the files, or its number from 0; got "
+            f"{type(weights).__name__}. Weights in memory: write them beside the points"
+        )
+    return str(weights)
+
+
+def _find_weights(file: Path, name: str, columns: tuple[int, ...]) -> int:
+    """Return the number of the column of weights in a file."""
+    names, width = FORMATS[kind_of(file)].names(file)
+    found = find_column(open_source(file), name, names, width)
+    if found in columns:
+        raise ParameterError(
+            f"weights={name!r} is a column of coordinates of {file}; weights need a column of "
+            "their own, and columns= tells which are the coordinates"
+        )
+    return found
 
 
 def _files(path: Path) -> list[Path]:
@@ -189,10 +276,10 @@ def _files(path: Path) -> list[Path]:
             file
             for file in path.rglob("*")
             if file.is_file()
-            and _kind(file) in DATASET_FORMATS
+            and kind_of(file) in DATASET_FORMATS
             and not file.name.startswith((".", "_"))
         )
-        kinds = {_kind(file) for file in files}
+        kinds = {kind_of(file) for file in files}
         if not files or len(kinds) > 1:
             found = ", ".join(sorted(kinds)) or "none"
             raise FileReadError(
@@ -200,117 +287,10 @@ def _files(path: Path) -> list[Path]:
                 f"{', '.join(DATASET_FORMATS)}; found: {found}"
             )
         return files
-    if _kind(path) not in DATASET_FORMATS:
+    if kind_of(path) not in DATASET_FORMATS:
         raise FileReadError(
             f"{path} is not of a format that is read a chunk at a time; these are: "
             f"{', '.join(DATASET_FORMATS)}. Convert it: alphamesh convert"
         )
     open_source(path)  # says clearly what is wrong with it
     return [path.absolute()]
-
-
-def _kind(path: str | Path) -> str:
-    return Path(path).suffix.lower().removeprefix(".")
-
-
-# Each returns or yields start, count, part and columns of the chunks of a file.
-Parts = Iterator[tuple[int, int, int, tuple[int, ...]]]
-
-
-def _slices(count: int, size: int, columns: tuple[int, ...]) -> Parts:
-    for start in range(0, count, size):
-        yield start, min(size, count - start), 0, columns
-
-
-def _open_npy(path: str | Path) -> Any:
-    try:
-        array = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (ValueError, EOFError, OSError) as error:
-        raise FileReadError(f"{path} is not a complete NPY file: {error}") from error
-    if array.ndim != 2 or array.shape[1] < 2 or array.dtype.kind not in "fiu":
-        raise FileReadError(
-            f"{path} holds {array.dtype} of shape {array.shape}; needed is a table of "
-            "numbers, two columns or more"
-        )
-    return array
-
-
-def _npy_parts(path: Path, wanted: Wanted, size: int) -> Parts:
-    array = _open_npy(path)
-    chosen = choose_columns(open_source(path), wanted, None, array.shape[1])
-    return _slices(len(array), size, chosen)
-
-
-def _read_npy(chunk: Chunk) -> Any:
-    array = _open_npy(chunk.path)
-    part = array[chunk.start : chunk.start + chunk.count]
-    first, last = chunk.columns[0], chunk.columns[-1]
-    if chunk.columns == tuple(range(first, last + 1)):
-        return part[:, first : last + 1]
-    return part[:, list(chunk.columns)]
-
-
-def _parquet(path: str | Path) -> Any:
-    try:
-        import pyarrow as pa
-        import pyarrow.parquet as pq
-    except ImportError as error:
-        raise MissingLibraryError.of("pyarrow", "tiles", "reading Parquet files") from error
-    try:
-        return pq.ParquetFile(path)
-    except (pa.ArrowException, OSError, ValueError) as error:
-        raise FileReadError(f"{path} is not a complete Parquet file ({error})") from error
-
-
-def _parquet_parts(path: Path, wanted: Wanted, size: int) -> Parts:
-    table = _parquet(path)
-    names = table.schema_arrow.names
-    chosen = choose_columns(open_source(path), wanted, names, len(names))
-    groups = (table.metadata.row_group(k).num_rows for k in range(table.num_row_groups))
-    return ((0, count, part, chosen) for part, count in enumerate(groups))
-
-
-def _read_parquet(chunk: Chunk) -> FloatArray:
-    table = _parquet(chunk.path)
-    names = table.schema_arrow.names
-    wanted = [names[k] for k in chunk.columns]
-    group = table.read_row_group(chunk.part, columns=wanted)
-    return np.stack([np.asarray(group.column(name).to_numpy(), float) for name in wanted], 1)
-
-
-def _las(path: str | Path) -> Any:
-    try:
-        import laspy
-    except ImportError as error:
-        raise MissingLibraryError.of("laspy", "tiles", "reading LAS files") from error
-    try:
-        with Path(path).open("rb") as file:
-            backend = laz_backend(file)
-        return laspy.open(path, **backend)
-    except (laspy.errors.LaspyException, OSError, ValueError) as error:
-        raise FileReadError(f"{path} is not a complete LAS file ({error})") from error
-
-
-def _las_parts(path: Path, wanted: Wanted, size: int) -> Parts:
-    source = open_source(path)
-    with source.open() as head:
-        refuse_counts(source, head)
-    chosen = choose_columns(source, wanted, _AXES, len(_AXES))
-    with _las(path) as file:
-        return _slices(int(file.header.point_count), size, chosen)
-
-
-def _read_las(chunk: Chunk) -> FloatArray:
-    with _las(chunk.path) as file:
-        file.seek(chunk.start)
-        part = file.read_points(chunk.count)
-        return np.stack([np.asarray(part[_AXES[k]]) for k in chunk.columns], axis=1)
-
-
-_PARTS = {
-    "npy": _npy_parts,
-    "parquet": _parquet_parts,
-    "las": _las_parts,
-    "laz": _las_parts,
-}
-_READERS = {"npy": _read_npy, "parquet": _read_parquet, "las": _read_las, "laz": _read_las}

@@ -20,6 +20,7 @@ from alphamesh.tiles.merge import merge
 from alphamesh.tiles.pieces import solve
 from alphamesh.tiles.store import Store
 from alphamesh.tiles.tiling import Tiling, plan
+from alphamesh.tiles.weighing import WeightRange
 from alphamesh.tiles.workers import Workers, go_on, workers_of
 
 if TYPE_CHECKING:
@@ -61,7 +62,9 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
         See :func:`dataset`. Files must be within reach of all workers.
     radius : float
         Not negative, finite. Tiles need a halo of twice this width: many times the
-        distance between points is slow.
+        distance between points is slow. With weights it is a signed root of a power value,
+        see :class:`alphamesh.Filtration`, and may be negative; the halo is twice as wide
+        as the largest ball at this radius.
     folder : path-like
         For the result; made if it is not there. Within reach of all workers.
     tile_points : int
@@ -90,10 +93,10 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
     ParameterError
         If `radius` or `tile_points` is not what it must be, or the folder holds
         something else.
-    FileReadError, FileWriteError, NonFiniteError
+    FileReadError, FileWriteError, NonFiniteError, WeightsError
         If the data cannot be read, or the result not be written.
     """
-    radius = _checked_radius(radius)
+    radius = _checked_radius(radius, weighted=data.weights is not None)
     if tile_points < 1:
         raise ParameterError(f"tile_points must be at least 1; got {tile_points!r}")
     store = Store(Path(folder).absolute())
@@ -114,13 +117,14 @@ def _unheard(fraction: float) -> None:
     """Take no notice."""
 
 
-def _checked_radius(radius: Any) -> float:
+def _checked_radius(radius: Any, *, weighted: bool) -> float:
     try:
         value = float(radius)
     except (TypeError, ValueError):
         value = math.nan
-    if not 0 <= value < math.inf:
-        raise ParameterError(f"radius must be a number, 0 or more and finite; got {radius!r}")
+    if not (math.isfinite(value) and (weighted or value >= 0)):
+        least = "finite" if weighted else "0 or more and finite"
+        raise ParameterError(f"radius must be a number, {least}; got {radius!r}")
     return value
 
 
@@ -136,6 +140,7 @@ def _begin(
         "chunks": len(data.chunks),
         "radius": radius,
         "tile_points": tile_points,
+        **({} if data.weights is None else {"weights": data.weights}),
     }
     known = store.manifest()
     if known == wanted:
@@ -146,7 +151,8 @@ def _begin(
                 f"{store.folder} holds other files; choose an empty folder or a new one"
             )
         if not overwrite:
-            different = ", ".join(key for key in wanted if known.get(key) != wanted[key])
+            keys = dict.fromkeys((*wanted, *known))
+            different = ", ".join(key for key in keys if known.get(key) != wanted.get(key))
             raise ParameterError(
                 f"{store.folder} holds another run (different: {different}); choose another "
                 "folder, or replace it with overwrite=True"
@@ -163,12 +169,14 @@ def _plan(
     tiles = max(1, math.ceil(data.count / tile_points))
     share = min(1.0, _SAMPLE * tiles / max(data.count, 1))
     done = workers.each(partial(_sample, share=share), data.chunks)
-    samples = dict(_counted(done, len(data.chunks), told, 0.0, _SURVEYED))
-    sample = np.concatenate(
-        [np.empty((0, data.dimension)), *(samples[k] for k in sorted(samples))]
-    )
+    found = dict(_counted(done, len(data.chunks), told, 0.0, _SURVEYED))
+    samples = [found[k][0] for k in sorted(found)]
+    sample = np.concatenate([np.empty((0, data.dimension)), *samples])
     first_rows = np.array([chunk.first_row for chunk in data.chunks], dtype=np.int64)
-    store.write_plan(plan(sample, tiles), first_rows)
+    weights = None
+    if data.weights is not None:
+        weights = WeightRange.of(np.array([part[1] for part in found.values()]).ravel())
+    store.write_plan(plan(sample, tiles), first_rows, weights)
 
 
 def _solve(
@@ -204,9 +212,13 @@ def _counted(
 # ------------------------------------------------------- tasks, one process each
 
 
-def _sample(chunk: Chunk, share: float) -> tuple[int, FloatArray]:
-    """Return some points of a chunk, the same ones each time."""
-    return chunk.number, chunk.sample(math.ceil(chunk.count * share))
+def _sample(chunk: Chunk, share: float) -> tuple[int, tuple[FloatArray, tuple[float, ...]]]:
+    """Return some points of a chunk, the same ones each time, and the range of all weights."""
+    sample = chunk.sample(math.ceil(chunk.count * share))
+    if chunk.weight is None:
+        return chunk.number, (sample, ())
+    weights = WeightRange.of(chunk.read_weights())
+    return chunk.number, (sample, (weights.least, weights.greatest))
 
 
 def _has_tile(tile: int, folder: Path) -> tuple[int, bool]:
@@ -221,7 +233,10 @@ def _spread(chunk: Chunk, folder: Path, radius: float) -> None:
     assert tiling is not None
     spool = store.spool(tiling)
     if not spool.holds(chunk.number):
-        spool.write(chunk.number, *tiling.spread(chunk.read(), radius, go_on))
+        weights = store.weight_range()
+        reach = radius if weights is None else weights.reach(radius)
+        # Weights go along with the points, as one coordinate more.
+        spool.write(chunk.number, *tiling.spread(chunk.read_weighted(), reach, go_on))
 
 
 def _solve_tile(tile: int, folder: Path, radius: float, row_type: Any) -> int:
@@ -230,5 +245,13 @@ def _solve_tile(tile: int, folder: Path, radius: float, row_type: Any) -> int:
     tiling = store.plan()
     assert tiling is not None
     rows, points = store.spool(tiling).points_of(tile, store.first_rows(), row_type)
-    store.write_tile(solve(tiling, tile, rows, points, radius, progress=go_on))
+    weight_range, weights = store.weight_range(), None
+    if weight_range is not None:
+        weights = np.ascontiguousarray(points[:, -1])
+        points = np.ascontiguousarray(points[:, :-1])
+    piece = solve(
+        tiling, tile, rows, points, radius,
+        weights=weights, weight_range=weight_range, progress=go_on,
+    )  # fmt: skip
+    store.write_tile(piece)
     return tile

@@ -25,6 +25,7 @@ from alphamesh.tiles.merge import Part, Summary, part_of
 from alphamesh.tiles.pieces import Boundary, Piece
 from alphamesh.tiles.spool import Spool
 from alphamesh.tiles.tiling import Tiling
+from alphamesh.tiles.weighing import WeightRange
 
 if TYPE_CHECKING:
     from alphamesh._arrays import CountArray
@@ -46,6 +47,7 @@ _FORMAT: dict[str, Any] = {
 # Bytes read at a time for a checksum: they stay in the processor's cache.
 _BLOCK = 1 << 20
 
+_RANGE = "weight_range"
 _MANIFEST, _PLAN, _SUMMARY = "manifest.json", "plan.npz", "summary.json"
 
 
@@ -88,9 +90,19 @@ class Store:
         first_rows: CountArray = arrays["first_rows"]
         return first_rows
 
-    def write_plan(self, tiling: Tiling, first_rows: CountArray) -> None:
-        """Keep the tiling, and where chunks begin."""
+    def weight_range(self) -> WeightRange | None:
+        """Return the range of the weights once there is a plan; None if there are none."""
+        arrays = self._arrays(_PLAN)
+        assert arrays is not None
+        return WeightRange(*arrays[_RANGE].tolist()) if _RANGE in arrays else None
+
+    def write_plan(
+        self, tiling: Tiling, first_rows: CountArray, weights: WeightRange | None = None
+    ) -> None:
+        """Keep the tiling, where chunks begin, and the range of the weights."""
         arrays = {field.name: getattr(tiling, field.name) for field in fields(Tiling)}
+        if weights is not None:
+            arrays[_RANGE] = np.array([weights.least, weights.greatest])
         self._write_arrays(_PLAN, arrays | {"first_rows": first_rows})
 
     def summary(self) -> Summary | None:
@@ -108,8 +120,9 @@ class Store:
     # Points on their way from chunks to tiles
 
     def spool(self, tiling: Tiling) -> Spool:
-        """Return the files of points on their way."""
-        return Spool(self.folder / "chunks", tiling.dimension, len(tiling))
+        """Return the files of points, and of their weights, on their way."""
+        columns = tiling.dimension + (self.weight_range() is not None)
+        return Spool(self.folder / "chunks", columns, len(tiling))
 
     # Tiles
 
@@ -226,7 +239,13 @@ def _columns(name: str, piece: Piece) -> dict[str, Any]:
     """Return the columns of one of the tables."""
     if name == "vertices":
         places = dict(zip("xyz", piece.points.T, strict=False))
-        return {"row": piece.rows, **places, "representative": piece.representative}
+        columns = {"row": piece.rows, **places, "representative": piece.representative}
+        if piece.weights is not None:
+            # Of points that are no vertices up to the radius, nothing is known.
+            radii = np.full(len(piece.rows), np.nan)
+            radii[np.searchsorted(piece.rows, piece.simplices[0][:, 0])] = piece.radii[0]
+            columns |= {"weight": piece.weights, "radius": radii}
+        return columns
     k = TABLES.index(name)
     columns = {f"vertex{i}": rows for i, rows in enumerate(piece.simplices[k].T)}
     columns["radius"] = piece.radii[k]

@@ -117,4 +117,3 @@ def _root_of_sum(a: float, b: float) -> float:
     if low >= 0.0:
         return math.hypot(low, high)
     return math.sqrt(high + low) * math.sqrt(high - low)
-
