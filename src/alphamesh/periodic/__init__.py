@@ -1,6 +1,6 @@
 """Alpha complexes of periodic boxes: a box that stands for all of space, filled with copies."""
 
-from alphamesh.periodic._box import as_periods
+from alphamesh.periodic._box import BoxCloud, as_periods, box_cloud, wrapped_points
 from alphamesh.periodic._filtration import PeriodicFiltration
 from alphamesh.periodic._making import periodic_filtration
 from alphamesh.periodic._persistence import PeriodicPersistence, periodic_persistence
@@ -10,12 +10,15 @@ from alphamesh.periodic._tiling import tiled_points
 
 __all__ = [
     "PERIODIC_RULES",
+    "BoxCloud",
     "PeriodicFiltration",
     "PeriodicPersistence",
     "PeriodicShape",
     "as_periods",
+    "box_cloud",
     "choose_periodic_radius",
     "periodic_filtration",
     "periodic_persistence",
     "tiled_points",
+    "wrapped_points",
 ]

@@ -16,7 +16,7 @@ from alphamesh.points import coordinate_error, last_digits
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray, KindArray
 
-__all__ = ["BoxCloud", "Copies", "as_periods", "box_cloud"]
+__all__ = ["BoxCloud", "Copies", "as_periods", "box_cloud", "wrapped_points"]
 
 # Exact sums of products of six coordinates reach from 2^100 each down to 2^-170.
 _TOP, _BOTTOM = 100, -170
@@ -153,10 +153,19 @@ class BoxCloud(Record):
                     found.append(places)
                     moved = np.array([[x, y, z]], dtype=np.int8)
                     offsets.append(np.repeat(moved, len(places), axis=0))
-        place, offset = np.concatenate(found), np.concatenate(offsets)
-        multiples = shifts.take(place, axis=0) + offset
-        high, low = _two_sum(anchors.take(place, axis=0), multiples * self.periods)
-        return Copies(rows.take(place), offset, high, low)
+        return self.moved(rows.take(np.concatenate(found)), np.concatenate(offsets))
+
+    def moved(self, rows: IntArray, offsets: KindArray) -> Copies:
+        """Return some points, each moved by whole periods.
+
+        Parameters
+        ----------
+        rows : (c,) int32
+        offsets : (c, 3) int8
+        """
+        multiples = self.shifts.take(rows, axis=0) + offsets
+        high, low = _two_sum(self.anchors.take(rows, axis=0), multiples * self.periods)
+        return Copies(rows, offsets, high, low)
 
 
 def box_cloud(
@@ -183,19 +192,8 @@ def box_cloud(
     if not np.isfinite(points).all():
         raise coordinate_error(points)
     sides = np.array([0.0 if side is None else side for side in periods])
-    closed = sides > 0
-    coarse = (np.abs(points) >= np.ldexp(sides, 52)) & closed
-    if coarse.any():
-        rows = np.flatnonzero(coarse.any(axis=1))
-        raise PeriodsError(
-            f"coordinates in {rows_text(rows[:6], total=len(rows))} are so large that their "
-            "last digit is more than a period; subtract what they have in common",
-            rows=rows[:6],
-        )
     anchors = np.zeros((len(points), _THREE))
-    anchors[:, : len(sides)] = np.where(
-        closed, np.fmod(points, np.where(closed, sides, 1.0)), points
-    )
+    anchors[:, : len(sides)] = _remainders(points, sides)
     lengths = np.zeros(_THREE)
     lengths[: len(sides)] = sides
     exponent, unit = _scale(anchors, lengths)
@@ -212,6 +210,41 @@ def box_cloud(
         unit,
         weights,
     )
+
+
+def wrapped_points(points: FloatArray, periods: tuple[float | None, ...]) -> FloatArray:
+    """Return where points lie in a periodic box, rounded: from 0 to the period.
+
+    Parameters
+    ----------
+    points : (n, d) float64
+        Finite.
+    periods : tuple of float or None
+        From :func:`as_periods`.
+
+    Raises
+    ------
+    PeriodsError
+        See :func:`box_cloud`.
+    """
+    sides = np.array([0.0 if side is None else side for side in periods])
+    anchors = _remainders(points, sides)
+    places: FloatArray = anchors + (anchors < 0) * sides
+    return places
+
+
+def _remainders(points: FloatArray, sides: FloatArray) -> FloatArray:
+    """Return coordinates without whole periods, with their signs; 0 is the side of none."""
+    closed = sides > 0
+    coarse = (np.abs(points) >= np.ldexp(sides, 52)) & closed
+    if coarse.any():
+        rows = np.flatnonzero(coarse.any(axis=1))
+        raise PeriodsError(
+            f"coordinates in {rows_text(rows[:6], total=len(rows))} are so large that their "
+            "last digit is more than a period; subtract what they have in common",
+            rows=rows[:6],
+        )
+    return np.where(closed, np.fmod(points, np.where(closed, sides, 1.0)), points)
 
 
 def _scaled_weights(

@@ -8,6 +8,8 @@ finds the simplices that begin in it, those of the whole cloud to the last bit.
 arrays; :func:`run` calls them for files, here or on the workers of a Dask cluster.
 """
 
+from alphamesh.tiles.box_pieces import solve_in_box
+from alphamesh.tiles.boxes import plan_in_box, spread_in_box
 from alphamesh.tiles.choose import SampledRadius, choose_radius
 from alphamesh.tiles.complex import TiledComplex
 from alphamesh.tiles.dataset import Chunk, Dataset, dataset
@@ -37,7 +39,10 @@ __all__ = [
     "outline",
     "part_of",
     "plan",
+    "plan_in_box",
     "run",
     "solve",
+    "solve_in_box",
+    "spread_in_box",
     "status",
 ]

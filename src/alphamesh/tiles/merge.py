@@ -66,7 +66,9 @@ class Summary:
         Facets are edges in the plane, triangles in space.
     euler_characteristic : int
     betti : tuple of int
-        Components and holes; in space components, tunnels and voids.
+        Components and holes; in space components, tunnels and voids. In a periodic box of
+        the plane components, loops, and 1 if all is filled; in one of space components
+        alone, as loops that run around the box are not told from others.
     regions : int
         Sets of cells connected by facets.
     size, boundary_size : float
@@ -100,7 +102,9 @@ def part_of(piece: Piece) -> Part:
     )
 
 
-def merge(parts: Sequence[Part], radius: float) -> tuple[Summary, list[IntArray], FloatArray]:
+def merge(
+    parts: Sequence[Part], radius: float, *, periodic: bool = False
+) -> tuple[Summary, list[IntArray], FloatArray]:
     """Put the parts of all tiles together.
 
     Parameters
@@ -108,6 +112,8 @@ def merge(parts: Sequence[Part], radius: float) -> tuple[Summary, list[IntArray]
     parts : sequence of Part
         One for each tile, in their order.
     radius : float
+    periodic : bool
+        Whether they are those of a periodic box.
 
     Returns
     -------
@@ -135,7 +141,7 @@ def merge(parts: Sequence[Part], radius: float) -> tuple[Summary, list[IntArray]
         regular_facets=kinds[SimplexKind.REGULAR],
         interior_facets=kinds[SimplexKind.INTERIOR],
         euler_characteristic=euler,
-        betti=_betti(parts, euler),
+        betti=_betti_in_box(parts, euler, kinds) if periodic else _betti(parts, euler),
         regions=regions,
         size=math.fsum(size for part in parts for size in part.region_sizes.tolist()),
         boundary_size=math.fsum(part.boundary_size for part in parts),
@@ -151,6 +157,18 @@ def _betti(parts: Sequence[Part], euler: int) -> tuple[int, ...]:
     sides, _ = join([part.fronts for part in parts])
     voids = sides - components
     return components, components + voids - euler, voids
+
+
+def _betti_in_box(parts: Sequence[Part], euler: int, kinds: Sequence[int]) -> tuple[int, ...]:
+    """Return the Betti numbers on a torus, as far as components and the Euler number tell.
+
+    A part of a surface without a border is all of it.
+    """
+    components, _ = join([part.components for part in parts])
+    if len(parts[0].counts) > 3:
+        return (components,)
+    filled = int(kinds[SimplexKind.INTERIOR] > 0 and kinds[SimplexKind.REGULAR] == 0)
+    return components, components + filled - euler, filled
 
 
 def outline(boundaries: Sequence[Boundary], region_labels: Sequence[IntArray]) -> Rings:

@@ -12,7 +12,6 @@ from alphamesh._kernels import BadCoordinates
 from alphamesh._kernels.tiles import tile2, tile_share3
 from alphamesh._kernels.weighted import regular3
 from alphamesh._weights import shifted_radii
-from alphamesh.errors import WeightsError
 from alphamesh.filtration import filtration
 from alphamesh.filtration3d import Filtration3D
 from alphamesh.measures import total_length, triangle_areas
@@ -20,12 +19,13 @@ from alphamesh.points import births_of_rows, coordinate_error, merged_rows
 from alphamesh.tiles.fronts import FRAME, with_frame
 from alphamesh.tiles.labels import Border
 from alphamesh.tiles.tiling import Tiling, halo_width
-from alphamesh.tiles.weighing import WeightRange
+from alphamesh.tiles.weighing import limits_of
 
 if TYPE_CHECKING:
     from alphamesh._arrays import CountArray, FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
     from alphamesh._kernels.tiles import Share2, Share3
+    from alphamesh.tiles.weighing import WeightRange
 
 __all__ = ["Boundary", "Piece", "solve"]
 
@@ -88,6 +88,9 @@ class Piece(Record):
         :mod:`alphamesh.tiles.fronts`); in the plane these are none.
     weights : (n,) float64 or None
         Those of `points`.
+    offsets : tuple of (m_k, k + 1, d) int8, or None
+        In a periodic box: how many periods each vertex lies from its place there, see
+        :class:`alphamesh.PeriodicComplex`.
     """
 
     tile: int
@@ -104,6 +107,7 @@ class Piece(Record):
     regions: Border
     fronts: Border
     weights: FloatArray | None = None
+    offsets: tuple[KindArray, ...] | None = None
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{len(rows):,}" for rows in self.simplices)
@@ -170,14 +174,7 @@ def solve(  # noqa: PLR0913 (a tile, its points and the radius)
     WeightsError
         If weights come without their range, or do not lie in it.
     """
-    reach, plain = radius, radius if weights is None else None
-    if weights is not None:
-        if weight_range is None or not weight_range.covers(weights):
-            raise WeightsError(
-                "weight_range must be that of the weights of the whole cloud: "
-                "WeightRange.of(weights)"
-            )
-        reach, plain = weight_range.reach(radius), weight_range.plain_radius(radius)
+    reach, plain = limits_of(radius, weights, weight_range)
     known = _Known(
         rows,
         points,

@@ -142,7 +142,12 @@ class Tiling(Record):
             Lower and upper corner; others may know points that are not above the third
             row, or not below the last one, in any coordinate.
         """
-        (low, high), width = self.boxes[tile], halo_width(radius)
+        return self.bounds_of(self.boxes[tile], radius)
+
+    @staticmethod
+    def bounds_of(box: FloatArray, radius: float) -> FloatArray:
+        """Return the same of a box, ``(2, d)``, that is not one of the tiling's."""
+        (low, high), width = box, halo_width(radius)
         near = np.nextafter(low + width, np.inf), np.nextafter(high - width, -np.inf)
         return read_only(np.stack((low, high, *near)))
 

@@ -14,7 +14,7 @@ from alphamesh.errors import WeightsError
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray
 
-__all__ = ["WeightRange"]
+__all__ = ["WeightRange", "limits_of"]
 
 # Float radii are off by less than this share of their terms.
 _SLACK = 2.0**-40
@@ -103,6 +103,26 @@ class WeightRange:
             there = _shifted(float(np.int64(middle).view(np.float64)), self.greatest) <= radius
             bits[0 if there else 1] = middle
         return float(np.int64(bits[0]).view(np.float64))
+
+
+def limits_of(
+    radius: float, weights: FloatArray | None, weight_range: WeightRange | None
+) -> tuple[float, float | None]:
+    """Return the radius of the largest balls, and `radius` without weights if that will do.
+
+    Raises
+    ------
+    WeightsError
+        If weights come without their range, or do not lie in it.
+    """
+    if weights is None:
+        return radius, radius
+    if weight_range is None or not weight_range.covers(weights):
+        raise WeightsError(
+            "weight_range must be that of the weights of the whole cloud: "
+            "WeightRange.of(weights)"
+        )
+    return weight_range.reach(radius), weight_range.plain_radius(radius)
 
 
 def _shifted(radius: float, weight: float) -> float:

@@ -1,0 +1,288 @@
+"""One tile's share of a periodic box: plain arrays in, plain arrays out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from alphamesh._arrays import read_only
+from alphamesh._kernels.outlines import connected
+from alphamesh._kernels.periodic import periodic_complex, periodic_star
+from alphamesh._weights import shifted_radii
+from alphamesh.measures import edge_lengths, tetrahedron_volumes, triangle_areas
+from alphamesh.periodic import box_cloud, wrapped_points
+from alphamesh.tiles.boxes import Periods, check_box, closed_box, reach_in_box
+from alphamesh.tiles.labels import Border
+from alphamesh.tiles.pieces import Boundary, Piece
+from alphamesh.tiles.weighing import limits_of
+
+if TYPE_CHECKING:
+    from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray, KindArray
+    from alphamesh._kernels import Progress
+    from alphamesh.periodic import BoxCloud
+    from alphamesh.tiles.tiling import Tiling
+    from alphamesh.tiles.weighing import WeightRange
+
+__all__ = ["solve_in_box"]
+
+
+class _Known(NamedTuple):
+    """What a tile knows: sites are points that stand for themselves, the tile's own first."""
+
+    rows: CountArray
+    """of the points, in the whole cloud, ascending"""
+    own: BoolArray
+    """of the points: in the tile"""
+    near: BoolArray
+    """of the points: other tiles may know them"""
+    box: BoxCloud | None
+    """None if there are no points"""
+    moves: KindArray
+    """of the points"""
+    places: FloatArray
+    """of the points, where they are moved to, rounded"""
+    radius: float
+
+
+def solve_in_box(  # noqa: PLR0913, PLR0917 (a tile, its points, the box and the radius)
+    tiling: Tiling,
+    tile: int,
+    rows: CountArray,
+    points: FloatArray,
+    moves: KindArray,
+    periods: Periods,
+    radius: float,
+    *,
+    weights: FloatArray | None = None,
+    weight_range: WeightRange | None = None,
+    threads: int | None = 1,
+    progress: Progress | None = None,
+) -> Piece:
+    """Compute the simplices of value at most `radius` that one tile of a box owns.
+
+    They are those of :func:`alphamesh.periodic.periodic_filtration`, with the same offsets
+    and, to the last bit, the same values.
+
+    Parameters
+    ----------
+    tiling : Tiling
+        From :func:`plan_in_box`.
+    tile : int
+    rows : (n,) int64 or int32
+        Rows in the whole cloud, in any order, none twice: of the tile and its halo.
+    points : (n, d) float64
+        As they come.
+    moves : (n, d) int8
+        From :func:`spread_in_box`.
+    periods : tuple of float or None
+    radius : float
+    weights, weight_range, threads, progress : optional
+        See :func:`alphamesh.tiles.solve`.
+
+    Returns
+    -------
+    Piece
+        Its points are their places in the box. There is no boundary, but its size.
+
+    Raises
+    ------
+    WeightsError
+        If weights come without their range, or do not lie in it.
+    PeriodsError
+        If the box is too small for the radius.
+    """
+    reach, plain = limits_of(radius, weights, weight_range)
+    check_box(periods, reach)
+    order = np.argsort(rows, kind="stable")
+    rows, points, moves = rows.take(order), points.take(order, 0), moves.take(order, 0)
+    heavy = None if weights is None else weights.take(order)
+    known = _known(
+        tiling, tile, rows, points, moves, periods, reach,
+        heavy if plain is None else None, radius if plain is None else plain,
+    )  # fmt: skip
+    piece = _piece(tile, known, wrapped_points(points, periods), threads, progress)
+    if heavy is None or weight_range is None:
+        return piece
+    if plain is not None:
+        equal = weight_range.greatest
+        radii = tuple(shifted_radii(values, equal) for values in piece.radii)
+        piece = replace(piece, radii=radii)
+    return replace(piece, weights=read_only(heavy.compress(known.own)))
+
+
+def _known(  # noqa: PLR0913, PLR0917 (see solve_in_box)
+    tiling: Tiling,
+    tile: int,
+    rows: CountArray,
+    points: FloatArray,
+    moves: KindArray,
+    periods: Periods,
+    reach: float,
+    weights: FloatArray | None,
+    radius: float,
+) -> _Known:
+    places = wrapped_points(points, periods)
+    low, high = tiling.boxes[tile]
+    own = ((places >= low) & (places < high) & (moves == 0)).all(axis=1)
+    # Those near to any border of the tile, where others may know them.
+    ends = closed_box(tiling.boxes[tile], periods)
+    inner = tiling.bounds_of(ends, reach_in_box(reach, periods))[2:]
+    near = ~own | ((places <= inner[0]) | (places >= inner[1])).any(axis=1)
+    sides = np.array([0.0 if side is None else side for side in periods])
+    box = box_cloud(points, periods, weights) if len(points) else None
+    return _Known(rows, own, near, box, moves, places + moves * sides, radius)
+
+
+class _Layers(NamedTuple):
+    """Simplices by dimension, in numbers of points, with offsets and radii."""
+
+    simplices: list[IntArray]
+    offsets: list[KindArray]
+    radii: list[FloatArray]
+    cofaces: IntArray
+
+
+def _layers(known: _Known, threads: int | None, progress: Progress | None) -> _Layers:
+    """Return the simplices at the points of the tile, and others that are not right."""
+    d = known.places.shape[1]
+    made = _Layers(
+        [np.empty((0, k + 1), dtype=np.int32) for k in range(d + 1)],
+        [np.empty((0, k + 1, d), dtype=np.int8) for k in range(d + 1)],
+        [np.empty(0) for _ in range(d + 1)],
+        np.empty((0, 2), dtype=np.int32),
+    )
+    if known.box is None or not known.own.any():
+        return made
+    box, own = known.box, known.own.take(known.box.rows)
+    sites = np.concatenate((box.rows.compress(own), box.rows.compress(~own)))
+    moves = np.zeros((len(sites), 3), dtype=np.int8)
+    moves[:, :d] = known.moves.take(sites, axis=0)
+    copies = box.moved(sites, moves)
+    weights = np.zeros(len(sites)) if box.weights is None else box.weights.take(sites)
+    star = periodic_star(
+        copies.high, copies.low, weights, box.unit, int(np.count_nonzero(own)), progress
+    )
+    if star.dimension == 0:  # a single point, whose neighbours are all far away
+        made.simplices[0] = sites[:, np.newaxis]
+        made.offsets[0] = np.zeros((1, 1, d), dtype=np.int8)
+        value = 0.0 if box.weights is None else -float(np.ldexp(weights[0], -2 * box.exponent))
+        made.radii[0] = np.array([np.copysign(np.sqrt(abs(value)), value) + 0.0])
+        return made
+    # No point comes twice, so that each cell is met once: all count as in the box.
+    layers, cofaces = periodic_complex(
+        copies.rows, copies.offsets, len(sites), star.cells, box.anchors, box.shifts,
+        box.weights, box.periods, box.exponent, threads,
+    )  # fmt: skip
+    for k, layer in enumerate(layers):
+        made.simplices[k] = layer.rows
+        made.offsets[k] = layer.offsets[:, :, :d]
+        made.radii[k] = layer.radii
+    return made._replace(cofaces=cofaces) if star.dimension == d else made
+
+
+def _piece(
+    tile: int,
+    known: _Known,
+    places: FloatArray,
+    threads: int | None,
+    progress: Progress | None,
+) -> Piece:
+    rows, own, radius = known.rows, known.own, known.radius
+    layers, d = _layers(known, threads, progress), places.shape[1]
+    there = [values <= radius for values in layers.radii]
+    mine = [
+        here & own.take(simplices[:, 0])
+        for here, simplices in zip(there, layers.simplices, strict=True)
+    ]
+    facets = np.flatnonzero(mine[d - 1])
+    # Of each of the tile's facets the cells that are there, -1 for others.
+    cells = np.full((len(facets), 2), -1, dtype=np.int32)
+    if len(layers.cofaces):
+        cells = layers.cofaces.take(facets, axis=0)
+        cells = np.where((cells >= 0) & there[d].take(cells, mode="clip"), cells, -1)
+    beside = np.count_nonzero(cells >= 0, axis=1)
+    border = layers.simplices[d - 1].take(facets.compress(beside == 1), axis=0)
+    regions, region_sizes = _regions(known, layers, mine[d], cells)
+    representative = np.arange(len(rows)) if known.box is None else known.box.representative
+    return Piece(
+        tile=tile,
+        rows=read_only(rows.compress(own)),
+        points=read_only(places.compress(own, axis=0)),
+        representative=read_only(rows.take(representative.compress(own))),
+        simplices=tuple(
+            read_only(rows.take(simplices.compress(keep, axis=0)))
+            for simplices, keep in zip(layers.simplices, mine, strict=True)
+        ),
+        radii=tuple(
+            read_only(values.compress(keep))
+            for values, keep in zip(layers.radii, mine, strict=True)
+        ),
+        facet_kinds=read_only((1 + beside).astype(np.int8)),
+        boundary=_no_boundary(d, rows.dtype),
+        boundary_size=float(_sizes(known.places, border).sum()),
+        region_sizes=region_sizes,
+        components=_components(known, layers, mine),
+        regions=regions,
+        fronts=Border(0, np.empty((0, 4), dtype=rows.dtype), np.empty(0, dtype=np.int32)),
+        offsets=tuple(
+            read_only(offsets.compress(keep, axis=0))
+            for offsets, keep in zip(layers.offsets, mine, strict=True)
+        ),
+    )
+
+
+def _sizes(places: FloatArray, simplices: IntArray) -> FloatArray:
+    """Return lengths, areas or volumes."""
+    measured: dict[int, Any] = {2: edge_lengths, 3: triangle_areas, 4: tetrahedron_volumes}
+    sizes: FloatArray = measured[simplices.shape[1]](places, simplices)
+    return sizes
+
+
+def _no_boundary(d: int, dtype: Any) -> Boundary:
+    return Boundary(
+        np.empty((0, d), dtype=dtype),
+        np.empty(0, dtype=dtype),
+        np.empty((0, d + 1, d)),
+        np.empty(0, dtype=np.int32),
+    )
+
+
+def _components(known: _Known, layers: _Layers, mine: list[BoolArray]) -> Border:
+    """Return how the vertices that the tile knows hang together by its edges."""
+    edges = layers.simplices[1].compress(mine[1], axis=0)
+    seen = np.zeros(len(known.rows), dtype=bool)
+    seen[layers.simplices[0].compress(mine[0], axis=0)] = True
+    seen[edges] = True
+    count, labels = _labels(edges, seen)
+    shared = seen & known.near
+    return _border(count, known.rows.compress(shared)[:, np.newaxis], labels.compress(shared))
+
+
+def _regions(
+    known: _Known, layers: _Layers, mine: BoolArray, cells: IntArray
+) -> tuple[Border, FloatArray]:
+    """Return how the cells that the tile knows hang together, and what it owns of each part."""
+    corners = layers.simplices[-1]
+    seen = mine.copy()
+    seen[cells[cells >= 0]] = True
+    count, labels = _labels(cells.compress((cells >= 0).all(axis=1), axis=0), seen)
+    own_sizes = _sizes(known.places, corners.compress(mine, axis=0))
+    sizes = np.bincount(labels.compress(mine), own_sizes, minlength=count)
+    shared = seen & ~known.own.take(corners).all(axis=1)
+    keys = known.rows.take(corners.compress(shared, axis=0))
+    return _border(count, keys, labels.compress(shared)), read_only(sizes)
+
+
+def _labels(links: IntArray, seen: BoolArray) -> tuple[int, CountArray]:
+    """Return how many parts what is seen has, and their numbers; -1 for the rest."""
+    parts = connected(len(seen), np.ascontiguousarray(links, dtype=np.int32))
+    found, numbers = np.unique(parts.compress(seen), return_inverse=True)
+    labels = np.full(len(seen), -1, dtype=np.int64)
+    labels[seen] = numbers
+    return len(found), labels
+
+
+def _border(count: int, keys: CountArray, labels: CountArray) -> Border:
+    return Border(count, read_only(keys), read_only(labels.astype(np.int32)))
