@@ -17,6 +17,7 @@ from alphamesh.cli.command import (
     write_section,
 )
 from alphamesh.cli.outputs import Output, Outputs, check_targets, write_bytes
+from alphamesh.cli.periods import betti_text, periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, number, print_json, print_lines, size_text
 from alphamesh.cli.types import AUTO
@@ -69,6 +70,7 @@ def command() -> None:
 @click.option("--columns", metavar="X,Y[,Z]", help="The columns that hold the coordinates.")
 @click.option("--dimension", type=click.IntRange(2, 3), help="Read so many coordinates.")
 @weights_option
+@periods_option
 @click.option(
     "--tile-points", type=click.IntRange(1), default=500_000, show_default=True, metavar="N",
     help="About how many points a tile shall have.",
@@ -89,6 +91,7 @@ def _run(  # noqa: PLR0913, PLR0917 (one option each)
     columns: str | None,
     dimension: int | None,
     weights: str | int | None,
+    periods: tuple[float | None, ...] | None,
     tile_points: int,
     workers: int | None,
     cluster: str | None,
@@ -106,7 +109,9 @@ def _run(  # noqa: PLR0913, PLR0917 (one option each)
     if sum(choice is not None for choice in (threads, workers, cluster)) > 1:
         raise click.UsageError("give one of --threads, --workers and --cluster, not several")
     with Steps(quiet=quiet) as steps:
-        found = dataset(data, columns=columns, dimension=dimension, weights=weights)
+        found = dataset(
+            data, columns=columns, dimension=dimension, weights=weights, periods=periods
+        )
         reason = "Given on the command line."
         if radius == AUTO:
             with steps.step("Choosing the radius"):
@@ -191,6 +196,16 @@ def _write_polygons(result: TiledComplex, path: Path) -> None:
     write_bytes(json.dumps(content).encode(), path)
 
 
+def _classes(*, in_space: bool, periodic: bool) -> tuple[tuple[str, str], ...]:
+    """Return singular and plural of what each Betti number counts, as far as tiles know."""
+    component, whole = ("component", "components"), ("whole box", "whole boxes")
+    if periodic:
+        return (component,) if in_space else (component, ("loop", "loops"), whole)
+    if in_space:
+        return component, ("tunnel", "tunnels"), ("void", "voids")
+    return component, ("hole", "holes")
+
+
 def _tell(result: TiledComplex, as_json: bool, more: dict[str, Any]) -> None:
     from alphamesh.tiles.store import TABLES
 
@@ -200,7 +215,7 @@ def _tell(result: TiledComplex, as_json: bool, more: dict[str, Any]) -> None:
         print_json(numbers | more)
         return
     in_space = result.tiling.dimension == 3
-    classes = ("component", "tunnel", "void") if in_space else ("component", "hole")
+    names = _classes(in_space=in_space, periodic=result.periods is not None)
     sizes = ("Volume", "Surface area") if in_space else ("Area", "Perimeter")
     lines = {
         "Folder": f"{result.folder}  ({counted(len(result.tiling), 'tile')})",
@@ -210,7 +225,8 @@ def _tell(result: TiledComplex, as_json: bool, more: dict[str, Any]) -> None:
         "Complex": ", ".join(
             f"{count:,} {name}" for count, name in zip(facts.counts, TABLES, strict=False)
         ),
-        "Shape": ", ".join(map(counted, facts.betti, classes))
+        "Shape": betti_text(facts.betti, names)
+        + (f", Euler number {facts.euler_characteristic:,}" if len(facts.betti) == 1 else "")
         + f", {counted(facts.regions, 'region')}",
         sizes[0]: number(facts.size),
         sizes[1]: number(facts.boundary_size),

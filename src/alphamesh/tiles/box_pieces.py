@@ -11,6 +11,7 @@ from alphamesh._arrays import read_only
 from alphamesh._kernels.outlines import connected
 from alphamesh._kernels.periodic import periodic_complex, periodic_star
 from alphamesh._weights import shifted_radii
+from alphamesh.errors import ParameterError
 from alphamesh.measures import edge_lengths, tetrahedron_volumes, triangle_areas
 from alphamesh.periodic import box_cloud, wrapped_points
 from alphamesh.tiles.boxes import Periods, check_box, closed_box, reach_in_box
@@ -92,11 +93,17 @@ def solve_in_box(  # noqa: PLR0913, PLR0917 (a tile, its points, the box and the
         If weights come without their range, or do not lie in it.
     PeriodsError
         If the box is too small for the radius.
+    ParameterError
+        If the tile is wider than those of :func:`plan_in_box`.
     """
     reach, plain = limits_of(radius, weights, weight_range)
     check_box(periods, reach)
     order = np.argsort(rows, kind="stable")
     rows, points, moves = rows.take(order), points.take(order, 0), moves.take(order, 0)
+    if (rows[1:] == rows[:-1]).any():
+        raise ParameterError(
+            "the tile is so wide that it knows a point twice; plan_in_box() makes tiles for boxes"
+        )
     heavy = None if weights is None else weights.take(order)
     known = _known(
         tiling, tile, rows, points, moves, periods, reach,
@@ -269,7 +276,8 @@ def _regions(
     seen[cells[cells >= 0]] = True
     count, labels = _labels(cells.compress((cells >= 0).all(axis=1), axis=0), seen)
     own_sizes = _sizes(known.places, corners.compress(mine, axis=0))
-    sizes = np.bincount(labels.compress(mine), own_sizes, minlength=count)
+    sizes = np.zeros(count)
+    np.add.at(sizes, labels.compress(mine), own_sizes)
     shared = seen & ~known.own.take(corners).all(axis=1)
     keys = known.rows.take(corners.compress(shared, axis=0))
     return _border(count, keys, labels.compress(shared)), read_only(sizes)
@@ -285,4 +293,4 @@ def _labels(links: IntArray, seen: BoolArray) -> tuple[int, CountArray]:
 
 
 def _border(count: int, keys: CountArray, labels: CountArray) -> Border:
-    return Border(count, read_only(keys), read_only(labels.astype(np.int32)))
+    return Border(count, read_only(keys), read_only(labels.astype(np.int32, copy=False)))

@@ -151,12 +151,13 @@ def spread_in_box(
         choices.append(near)
     found, moved = [], []
     for choice in itertools.product(*choices):
-        rows = np.flatnonzero(np.logical_and.reduce([there for _, there in choice]))
-        found.append(rows)
+        near_by = np.flatnonzero(np.logical_and.reduce([there for _, there in choice]))
+        found.append(near_by)
         move = np.array([[move for move, _ in choice]], dtype=np.int8)
-        moved.append(np.repeat(move, len(rows), axis=0))
-    rows, moves = np.concatenate(found).astype(np.int32), np.concatenate(moved)
+        moved.append(np.repeat(move, len(near_by), axis=0))
+    rows: IntArray = np.concatenate(found).astype(np.int32)
+    moves = np.concatenate(moved)
     sides = np.array([0.0 if side is None else side for side in periods])
     copies = places.take(rows, axis=0) + moves * sides
     offsets, order, _ = tiling.spread(copies, reach, progress)
-    return offsets, rows.take(order), moves.take(order, axis=0)
+    return offsets, read_only(rows.take(order)), read_only(moves.take(order, axis=0))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from alphamesh._arrays import read_only
-from alphamesh.errors import EmptyCloudError, ParameterError, UnweightedOnlyError
+from alphamesh.errors import EmptyCloudError, ParameterError, PeriodicError, UnweightedOnlyError
 from alphamesh.filtration import filtration
 from alphamesh.radius import choose_radius as choose_for_one
 from alphamesh.tiles.tiling import plan
@@ -85,6 +85,8 @@ def choose_radius(
         If there are no points.
     UnweightedOnlyError
         If there are weights, and none is positive.
+    PeriodicError
+        If the points are in a periodic box, for which the rule is not made.
     """
     if samples < 1 or tile_points < 1:
         raise ParameterError(
@@ -92,6 +94,11 @@ def choose_radius(
         )
     if data.count == 0:
         raise EmptyCloudError("no radius can be chosen for a cloud without points")
+    if data.periods is not None:
+        raise PeriodicError(
+            "no radius is chosen in tiles of a periodic box, whose rules look at all of it; "
+            "give one"
+        )
     if data.weights is not None:
         given = _of_given_balls(data)
         if given is not None:
@@ -124,8 +131,7 @@ def _of_given_balls(data: Dataset) -> SampledRadius | None:
         return None
     if greatest <= 0.0:
         raise UnweightedOnlyError(
-            "no radius is chosen in tiles for weights none of which is positive; give one, "
-            "such as AlphaComplex(points, weights=weights).choose_radius() of a part finds"
+            "no radius is chosen in tiles for weights none of which is positive; give one"
         )
     reason = (
         "Each ball has the size that its weight gives it: at radius 0, the complex is the "

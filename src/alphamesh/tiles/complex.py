@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from alphamesh._arrays import read_only
-from alphamesh.errors import DimensionError, FileReadError, MissingLibraryError, ParameterError
+from alphamesh.errors import (
+    DimensionError,
+    FileReadError,
+    MissingLibraryError,
+    ParameterError,
+    PeriodicError,
+)
 from alphamesh.tiles.merge import Summary, finish, merge
 from alphamesh.tiles.store import TABLES, Store
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import CountArray, FloatArray, IntArray
+    from alphamesh._arrays import CountArray, FloatArray, IntArray, KindArray
 
 __all__ = ["TiledComplex"]
 
@@ -54,6 +60,11 @@ class TiledComplex:
     def radius(self) -> float:
         """The radius of the complex."""
         return self.summary.radius
+
+    @property
+    def periods(self) -> tuple[float | None, ...] | None:
+        """The sides of the periodic box, None for open directions; None if there is none."""
+        return self._store.periods
 
     def tables(self, name: str) -> Iterator[Any]:
         """Yield a table tile by tile.
@@ -101,19 +112,54 @@ class TiledComplex:
             rows, radii = (np.concatenate(part) for part in zip(*found, strict=True))
             order = np.argsort(rows)
             return read_only(rows.take(order)[:, np.newaxis]), read_only(radii.take(order))
+        columns = self._sorted(dimension, ("radius",))
+        return read_only(np.stack(columns[:-1], axis=1)), read_only(columns[-1])
+
+    def offsets(self, dimension: int) -> KindArray:
+        """Return where the vertices of :meth:`simplices` lie in a periodic box.
+
+        Parameters
+        ----------
+        dimension : int
+
+        Returns
+        -------
+        (m, dimension + 1, d) int8
+            How many periods each vertex lies from its place in the box, where the table of
+            vertices has it; the first of each simplex lies there.
+
+        Raises
+        ------
+        PeriodicError
+            If there is no periodic box.
+        """
+        if self.periods is None:
+            raise PeriodicError("offsets are of periodic boxes: tiles.dataset(..., periods=)")
+        d, count = self.tiling.dimension, self.summary.counts[dimension]
+        made = np.zeros((count, dimension + 1, d), dtype=np.int8)
+        if dimension > 0:
+            names = [f"offset{i}{axis}" for i in range(1, dimension + 1) for axis in "xyz"[:d]]
+            moves = np.stack(self._sorted(dimension, names)[dimension + 1 :], axis=1)
+            made[:, 1:] = moves.reshape(count, dimension, d)
+        return read_only(made)
+
+    def _sorted(self, dimension: int, names: Sequence[str]) -> list[Any]:
+        """Return the vertices of all simplices, and other columns, in the order of rows."""
         tables = list(self.tables(TABLES[dimension]))
+        wanted = (*(f"vertex{i}" for i in range(dimension + 1)), *names)
         columns = [
             np.concatenate([table.column(name).to_numpy() for table in tables])
-            for name in (*(f"vertex{i}" for i in range(dimension + 1)), "radius")
+            for name in wanted
         ]
-        order = np.lexsort(columns[-2::-1])
-        simplices = np.stack(columns[:-1], axis=1).take(order, axis=0)
-        return read_only(simplices), read_only(columns[-1].take(order))
+        order = np.lexsort(columns[dimension::-1])
+        return [column.take(order) for column in columns]
 
     @cached_property
     def _merged(self) -> tuple[Any, Any]:
         parts = [self._store.part(tile) for tile in range(len(self.tiling))]
-        _, labels, sizes = merge([part for part, _ in parts], self.radius)
+        _, labels, sizes = merge(
+            [part for part, _ in parts], self.radius, periodic=self.periods is not None
+        )
         return (labels, [boundary for _, boundary in parts]), sizes
 
     @property
@@ -136,7 +182,13 @@ class TiledComplex:
             seen from outside, as rows of `points`.
         rows : (n,) int64
             The row in the whole cloud of each vertex.
+
+        Raises
+        ------
+        PeriodicError
+            In a periodic box, where surfaces need not be closed.
         """
+        self._need_open_space("boundary()")
         _, boundaries = self._merged[0]
         facets = np.concatenate([boundary.facets for boundary in boundaries])
         places = np.concatenate([b.points[:, :-1] for b in boundaries])
@@ -160,13 +212,23 @@ class TiledComplex:
             If shapely is not installed.
         DimensionError
             In space, which has no polygons: see :meth:`boundary`.
+        PeriodicError
+            In a periodic box, where rings need not be closed.
         """
+        self._need_open_space("polygons()")
         if self.tiling.dimension == 3:
             raise DimensionError(
                 "polygons are of the plane; boundary() gives the surface of a complex in space"
             )
         labels, boundaries = self._merged[0]
         return finish(boundaries, labels)
+
+    def _need_open_space(self, what: str) -> None:
+        if self.periods is not None:
+            raise PeriodicError(
+                f"{what} is there for open clouds alone, as what runs around a box does not "
+                "close; the table of facets has those of kind 2, with offsets()"
+            )
 
     def __repr__(self) -> str:
         facts = self.summary

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,7 @@ from alphamesh.errors import (
 )
 from alphamesh.io._columns import Columns, find_column, wanted_columns
 from alphamesh.io._sources import open_source
+from alphamesh.periodic import as_periods
 from alphamesh.tiles.formats import FORMATS, kind_of
 
 if TYPE_CHECKING:
@@ -179,6 +181,8 @@ class Dataset:
         Changes when a file is added, removed or changed.
     weights : str or None
         The column of weights, by its name or its number, if there is one.
+    periods : tuple of float or None
+        The side lengths of a periodic box, None for open directions; None if there is none.
     """
 
     chunks: tuple[Chunk, ...]
@@ -186,14 +190,16 @@ class Dataset:
     dimension: int
     digest: str
     weights: str | None = None
+    periods: tuple[float | None, ...] | None = None
 
 
-def dataset(
+def dataset(  # noqa: PLR0913 (what a file does not tell by itself)
     path: str | os.PathLike[str],
     *,
     columns: Columns = None,
     dimension: int | None = None,
     weights: str | int | None = None,
+    periods: Sequence[float | None] | None = None,
     chunk_points: int = _CHUNK,
 ) -> Dataset:
     """Describe a cloud on disk: a file, or a folder of files with equal columns.
@@ -210,6 +216,9 @@ def dataset(
     weights : str or int, optional
         The column, by name or by number from 0, of the squared radii of balls, of any sign:
         then the complex is the weighted one. By default all balls are of equal size.
+    periods : sequence of float or None, optional
+        The side lengths of the periodic box that the points are in, None for open
+        directions; see :class:`alphamesh.PeriodicComplex`.
     chunk_points : int
         How many rows to read at a time; of Parquet, whole row groups.
 
@@ -225,6 +234,8 @@ def dataset(
         If the format needs a library that is not installed.
     ParameterError
         If `columns`, `dimension` and `weights` do not fit together.
+    PeriodsError
+        If `periods` are not the sides of a box that has a periodic direction.
     """
     files = _files(Path(path))
     described: list[Chunk] = []
@@ -246,7 +257,8 @@ def dataset(
                     Chunk(len(described), str(file), row, start, count, part, chosen, weight)
                 )
             row += count
-    return Dataset(tuple(described), row, wanted.dimension, digest.hexdigest(), heavy)
+    box = None if periods is None else as_periods(periods, wanted.dimension)
+    return Dataset(tuple(described), row, wanted.dimension, digest.hexdigest(), heavy, box)
 
 
 def _column_of_weights(weights: object) -> str:

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh.errors import ParameterError
+from alphamesh.tiles.box_pieces import solve_in_box
+from alphamesh.tiles.boxes import check_box, plan_in_box, spread_in_box
 from alphamesh.tiles.complex import TiledComplex
 from alphamesh.tiles.dataset import Chunk, Dataset
 from alphamesh.tiles.merge import merge
@@ -93,6 +95,8 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
     ParameterError
         If `radius` or `tile_points` is not what it must be, or the folder holds
         something else.
+    PeriodsError
+        If a periodic box is too small for tiles with halos.
     FileReadError, FileWriteError, NonFiniteError, WeightsError
         If the data cannot be read, or the result not be written.
     """
@@ -106,7 +110,7 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
         _plan(store, data, int(tile_points), workers, told)
         tiling = _solve(store, data, radius, workers, told)
     parts = [store.part(tile)[0] for tile in range(len(tiling))]
-    store.write_summary(merge(parts, radius)[0])
+    store.write_summary(merge(parts, radius, periodic=data.periods is not None)[0])
     if not keep_chunks:
         store.spool(tiling).drop()
     told(1.0)
@@ -141,6 +145,7 @@ def _begin(
         "radius": radius,
         "tile_points": tile_points,
         **({} if data.weights is None else {"weights": data.weights}),
+        **({} if data.periods is None else {"periods": list(data.periods)}),
     }
     known = store.manifest()
     if known == wanted:
@@ -176,7 +181,11 @@ def _plan(
     weights = None
     if data.weights is not None:
         weights = WeightRange.of(np.array([part[1] for part in found.values()]).ravel())
-    store.write_plan(plan(sample, tiles), first_rows, weights)
+    if data.periods is None:
+        tiling = plan(sample, tiles)
+    else:
+        tiling = plan_in_box(sample, tiles, data.periods)
+    store.write_plan(tiling, first_rows, weights)
 
 
 def _solve(
@@ -184,6 +193,8 @@ def _solve(
 ) -> Tiling:
     tiling = store.plan()
     assert tiling is not None
+    if data.periods is not None:
+        check_box(data.periods, _reach(store, radius))
     done = dict(workers.each(partial(_has_tile, folder=store.folder), range(len(tiling))))
     tiles = [tile for tile in range(len(tiling)) if not done[tile]]
     if tiles:
@@ -232,11 +243,27 @@ def _spread(chunk: Chunk, folder: Path, radius: float) -> None:
     tiling = store.plan()
     assert tiling is not None
     spool = store.spool(tiling)
-    if not spool.holds(chunk.number):
-        weights = store.weight_range()
-        reach = radius if weights is None else weights.reach(radius)
-        # Weights go along with the points, as one coordinate more.
-        spool.write(chunk.number, *tiling.spread(chunk.read_weighted(), reach, go_on))
+    if spool.holds(chunk.number):
+        return
+    # Weights, and moves round a box, go along with the points as one coordinate more each.
+    table, reach = chunk.read_weighted(), _reach(store, radius)
+    if store.periods is None:
+        spool.write(chunk.number, *tiling.spread(table, reach, go_on))
+        return
+    points = table[:, : tiling.dimension]
+    offsets, rows, moves = spread_in_box(tiling, points, store.periods, reach, go_on)
+    told = np.column_stack((table.take(rows, axis=0), (moves + 1) @ _DIGITS[: moves.shape[1]]))
+    spool.write(chunk.number, offsets, rows, told)
+
+
+# Moves of -1, 0 or 1 as one number.
+_DIGITS = 3 ** np.arange(3)
+
+
+def _reach(store: Store, radius: float) -> float:
+    """Return the radius of the largest balls."""
+    weights = store.weight_range()
+    return radius if weights is None else weights.reach(radius)
 
 
 def _solve_tile(tile: int, folder: Path, radius: float, row_type: Any) -> int:
@@ -244,14 +271,20 @@ def _solve_tile(tile: int, folder: Path, radius: float, row_type: Any) -> int:
     store = Store(folder)
     tiling = store.plan()
     assert tiling is not None
-    rows, points = store.spool(tiling).points_of(tile, store.first_rows(), row_type)
-    weight_range, weights = store.weight_range(), None
-    if weight_range is not None:
-        weights = np.ascontiguousarray(points[:, -1])
-        points = np.ascontiguousarray(points[:, :-1])
-    piece = solve(
-        tiling, tile, rows, points, radius,
-        weights=weights, weight_range=weight_range, progress=go_on,
-    )  # fmt: skip
+    rows, table = store.spool(tiling).points_of(tile, store.first_rows(), row_type)
+    d, weight_range = tiling.dimension, store.weight_range()
+    points = np.ascontiguousarray(table[:, :d])
+    weights = None if weight_range is None else np.ascontiguousarray(table[:, d])
+    if store.periods is None:
+        piece = solve(
+            tiling, tile, rows, points, radius,
+            weights=weights, weight_range=weight_range, progress=go_on,
+        )  # fmt: skip
+    else:
+        moves = table[:, -1:].astype(np.int64) // _DIGITS[:d] % 3 - 1
+        piece = solve_in_box(
+            tiling, tile, rows, points, moves.astype(np.int8), store.periods, radius,
+            weights=weights, weight_range=weight_range, progress=go_on,
+        )  # fmt: skip
     store.write_tile(piece)
     return tile

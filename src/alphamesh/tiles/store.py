@@ -75,6 +75,12 @@ class Store:
             (self.folder / name).mkdir(parents=True, exist_ok=True)
         self._write_json(_MANIFEST, manifest)
 
+    @property
+    def periods(self) -> tuple[float | None, ...] | None:
+        """The sides of the periodic box, None for open directions; None if there is none."""
+        known = (self.manifest() or {}).get("periods")
+        return None if known is None else tuple(known)
+
     def plan(self) -> Tiling | None:
         """Return the tiling; None if there is none yet."""
         arrays = self._arrays(_PLAN)
@@ -120,8 +126,9 @@ class Store:
     # Points on their way from chunks to tiles
 
     def spool(self, tiling: Tiling) -> Spool:
-        """Return the files of points, and of their weights, on their way."""
+        """Return the files of points, of their weights and moves on their way."""
         columns = tiling.dimension + (self.weight_range() is not None)
+        columns += self.periods is not None
         return Spool(self.folder / "chunks", columns, len(tiling))
 
     # Tiles
@@ -248,6 +255,10 @@ def _columns(name: str, piece: Piece) -> dict[str, Any]:
         return columns
     k = TABLES.index(name)
     columns = {f"vertex{i}": rows for i, rows in enumerate(piece.simplices[k].T)}
+    if piece.offsets is not None:
+        for i in range(1, k + 1):  # those of the first are zero
+            moves = np.ascontiguousarray(piece.offsets[k][:, i].T)
+            columns |= {f"offset{i}{axis}": m for axis, m in zip("xyz", moves, strict=False)}
     columns["radius"] = piece.radii[k]
     if k == len(piece.simplices) - 2:
         columns["kind"] = piece.facet_kinds
