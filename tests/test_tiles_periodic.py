@@ -83,7 +83,32 @@ def assert_whole(points, periods, radius, count, weights=None):
     there = cx.radii[-1] <= radius
     assert sizes.sum() == pytest.approx(size, rel=1e-12)
     assert summary.regions == regions_of(cx.filtration.facet_cells, there)
+    assert summary.windings == windings_of(shape)
     return summary
+
+
+def windings_of(shape):
+    """Return how many components run around a box in 0, 1, ... directions, by plain search."""
+    around = {int(row): [] for row in shape.vertices[:, 0]}
+    moves = shape.offsets(1).astype(int)
+    for (a, b), (_, move) in zip(shape.edges.tolist(), moves, strict=True):
+        around[a].append((b, move))
+        around[b].append((a, -move))
+    found, places = [0] * (moves.shape[2] + 1), {}
+    for start in around:
+        if start in places:
+            continue
+        places[start], waiting = np.zeros(moves.shape[2], dtype=int), [start]
+        loops = [places[start]]
+        while waiting:
+            row = waiting.pop()
+            for other, move in around[row]:
+                if other not in places:
+                    places[other] = places[row] + move
+                    waiting.append(other)
+                loops.append(places[row] + move - places[other])
+        found[np.linalg.matrix_rank(np.unique(loops, axis=0))] += 1
+    return tuple(found)
 
 
 def regions_of(facet_cells, there):
@@ -112,7 +137,7 @@ def places(dimension):
     return {
         "uniform": (rng.random((count, dimension)) * side * 5 - 7, side),
         "grid": (grid, side),
-        "tenths": (grid[: len(grid) * 3 // 4] * 0.1 + 0.05, side * 0.1),
+        "tenths": (grid[: len(grid) // 2] * 0.1 + 0.05, side * 0.1),
         "clusters": (
             np.concatenate([c + rng.normal(0, 0.5, (60, dimension)) for c in centre]),
             side,
@@ -180,6 +205,26 @@ def test_union_is_the_whole_for_sparse_boxes(dimension, rows, radius, count, clo
     points = table[:, :dimension] * [1, 0.5, 1][:dimension]
     periods = tuple(16.0 if k else None for k in closed[:dimension])
     assert_whole(points, periods, radius, count, table[:, 3] if heavy else None)
+
+
+def test_strips_run_around():
+    along = np.arange(0.0, 20.0, 0.5)
+    strip = np.column_stack((along, np.full(40, 5.0)))
+    other = np.column_stack((along, np.full(40, 12.0)))
+    upright = np.column_stack((np.full(40, 3.0), along))
+    alone = np.array([[10.0, 8.0]])
+    for rows, wanted in (
+        ((strip, alone), (1, 1, 0)),
+        ((strip, other, alone), (1, 2, 0)),
+        ((strip, upright), (0, 0, 1)),
+        ((strip[:-2],), (1, 0, 0)),
+        ((np.column_stack((along, along)),), (0, 1, 0)),
+        ((np.column_stack((along, along)), alone), (1, 1, 0)),
+    ):
+        cloud = np.concatenate(rows)
+        assert assert_whole(cloud, (20.0, 20.0), 0.4, 6).windings == wanted
+    points = np.concatenate((strip, upright))
+    assert assert_whole(points, (20.0, None), 0.4, 6).windings == (0, 1, 0)
 
 
 def test_small_boxes_are_refused():

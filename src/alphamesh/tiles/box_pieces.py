@@ -102,7 +102,7 @@ def solve_in_box(  # noqa: PLR0913, PLR0917 (a tile, its points, the box and the
     rows, points, moves = rows.take(order), points.take(order, 0), moves.take(order, 0)
     if (rows[1:] == rows[:-1]).any():
         raise ParameterError(
-            "the tile is so wide that it knows a point twice; plan_in_box() makes tiles for boxes"
+            "the tile is so wide that it knows a point twice; make tiles with plan_in_box()"
         )
     heavy = None if weights is None else weights.take(order)
     known = _known(
@@ -264,7 +264,8 @@ def _components(known: _Known, layers: _Layers, mine: list[BoolArray]) -> Border
     seen[edges] = True
     count, labels = _labels(edges, seen)
     shared = seen & known.near
-    return _border(count, known.rows.compress(shared)[:, np.newaxis], labels.compress(shared))
+    border = _border(count, known.rows.compress(shared)[:, np.newaxis], labels.compress(shared))
+    return replace(border, moves=read_only(known.moves.compress(shared, axis=0)))
 
 
 def _regions(

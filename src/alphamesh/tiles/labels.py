@@ -14,9 +14,9 @@ from alphamesh._kernels.outlines import connected
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from alphamesh._arrays import CountArray, IntArray
+    from alphamesh._arrays import CountArray, IntArray, KindArray
 
-__all__ = ["Border", "join"]
+__all__ = ["Border", "join", "numbered", "shared"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -31,11 +31,15 @@ class Border(Record):
         Things that other tiles may know, too, named by rows of the whole cloud.
     labels : (b,) int32
         The part, from 0 to `count` - 1, of each of them.
+    moves : (b, d) int8 or None
+        Of components in a periodic box: how many periods each of them, in the tile's
+        halo, is away from its place.
     """
 
     count: int
     keys: CountArray
     labels: IntArray
+    moves: KindArray | None = None
 
 
 def join(borders: Sequence[Border]) -> tuple[int, list[CountArray]]:
@@ -53,19 +57,25 @@ def join(borders: Sequence[Border]) -> tuple[int, list[CountArray]]:
     labels : list of (count_i,) int64
         For each tile the number, from 0 to `count` - 1, of each of its parts.
     """
-    starts = np.concatenate(([0], np.cumsum([border.count for border in borders])))
-    nodes = [border.labels + start for border, start in zip(borders, starts, strict=False)]
-    keys = np.concatenate([border.keys for border in borders])
-    links = _shared(keys, np.concatenate(nodes))
+    starts, nodes = numbered(borders)
+    one, other = shared(np.concatenate([border.keys for border in borders]))
+    links = np.stack((nodes.take(one), nodes.take(other)), axis=1)
     total = int(starts[-1])
     joined = connected(total, links.astype(np.int32)).astype(np.int64)
     parts = [read_only(joined[a:b].copy()) for a, b in pairwise(starts)]
     return int(joined.max(initial=-1)) + 1, parts
 
 
-def _shared(keys: CountArray, nodes: CountArray) -> CountArray:
-    """Return pairs of nodes that know the same key, ``(k, 2)``."""
+def numbered(borders: Sequence[Border]) -> tuple[CountArray, CountArray]:
+    """Return the first number of each tile's parts, one after the other, and those of keys."""
+    starts = np.concatenate(([0], np.cumsum([border.count for border in borders])))
+    nodes = [border.labels + start for border, start in zip(borders, starts, strict=False)]
+    return starts, np.concatenate(nodes)
+
+
+def shared(keys: CountArray) -> tuple[CountArray, CountArray]:
+    """Return pairs of rows of `keys` that are equal, enough to join all that are."""
     order = np.lexsort(keys.T[::-1])
-    keys, nodes = keys.take(order, axis=0), nodes.take(order)
+    keys = keys.take(order, axis=0)
     same = (keys[1:] == keys[:-1]).all(axis=1)
-    return np.stack((nodes[:-1].compress(same), nodes[1:].compress(same)), axis=1)
+    return order[:-1].compress(same), order[1:].compress(same)

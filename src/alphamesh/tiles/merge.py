@@ -14,6 +14,7 @@ from alphamesh.classify import SimplexKind
 from alphamesh.measures import kernel_points
 from alphamesh.outline import Rings
 from alphamesh.tiles.labels import Border, join
+from alphamesh.tiles.windings import windings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -73,6 +74,9 @@ class Summary:
         Sets of cells connected by facets.
     size, boundary_size : float
         Area and perimeter, or volume and surface area, of the cells.
+    windings : tuple of int or None
+        In a periodic box: how many components run around it in 0, 1, ... independent
+        directions.
     """
 
     radius: float
@@ -86,6 +90,7 @@ class Summary:
     regions: int
     size: float
     boundary_size: float
+    windings: tuple[int, ...] | None = None
 
 
 def part_of(piece: Piece) -> Part:
@@ -145,6 +150,7 @@ def merge(
         regions=regions,
         size=math.fsum(size for part in parts for size in part.region_sizes.tolist()),
         boundary_size=math.fsum(part.boundary_size for part in parts),
+        windings=windings([part.components for part in parts]) if periodic else None,
     )
     return summary, [ranks.take(label) for label in labels], read_only(sizes.take(order))
 

@@ -116,7 +116,7 @@ class Store:
         found = self._json(_SUMMARY)
         if found is None:
             return None
-        lists = {name: tuple(found[name]) for name in ("betti", "counts")}
+        lists = {name: tuple(list_) for name, list_ in found.items() if isinstance(list_, list)}
         return Summary(**(found | lists))
 
     def write_summary(self, summary: Summary) -> None:
@@ -267,6 +267,7 @@ def _columns(name: str, piece: Piece) -> dict[str, Any]:
 
 _BOUNDARY = tuple(field.name for field in fields(Boundary))
 _BORDERS = ("components", "regions", "fronts")
+_MOVES = "components_moves"
 
 
 def _flat(piece: Piece) -> dict[str, Any]:
@@ -280,12 +281,19 @@ def _flat(piece: Piece) -> dict[str, Any]:
     for name in _BORDERS:
         border: Border = getattr(part, name)
         arrays |= {f"{name}_{key}": getattr(border, key) for key in ("count", "keys", "labels")}
+    if part.components.moves is not None:
+        arrays[_MOVES] = part.components.moves
     return arrays | {f"boundary_{key}": getattr(piece.boundary, key) for key in _BOUNDARY}
 
 
 def _unflat(arrays: dict[str, Any]) -> tuple[Part, Boundary]:
     borders = (
-        Border(int(arrays[f"{name}_count"]), arrays[f"{name}_keys"], arrays[f"{name}_labels"])
+        Border(
+            int(arrays[f"{name}_count"]),
+            arrays[f"{name}_keys"],
+            arrays[f"{name}_labels"],
+            arrays.get(_MOVES) if name == "components" else None,
+        )
         for name in _BORDERS
     )
     part = Part(
