@@ -196,21 +196,15 @@ def _piece(
     threads: int | None,
     progress: Progress | None,
 ) -> Piece:
-    rows, own, radius = known.rows, known.own, known.radius
+    rows, own = known.rows, known.own
     layers, d = _layers(known, threads, progress), places.shape[1]
-    there = [values <= radius for values in layers.radii]
     mine = [
-        here & own.take(simplices[:, 0])
-        for here, simplices in zip(there, layers.simplices, strict=True)
+        (values <= known.radius) & own.take(simplices[:, 0])
+        for values, simplices in zip(layers.radii, layers.simplices, strict=True)
     ]
-    facets = np.flatnonzero(mine[d - 1])
-    # Of each of the tile's facets the cells that are there, -1 for others.
-    cells = np.full((len(facets), 2), -1, dtype=np.int32)
-    if len(layers.cofaces):
-        cells = layers.cofaces.take(facets, axis=0)
-        cells = np.where((cells >= 0) & there[d].take(cells, mode="clip"), cells, -1)
+    cells = _cells_at(layers, mine[d - 1], known.radius)
     beside = np.count_nonzero(cells >= 0, axis=1)
-    border = layers.simplices[d - 1].take(facets.compress(beside == 1), axis=0)
+    border = layers.simplices[d - 1].compress(mine[d - 1], axis=0).compress(beside == 1, axis=0)
     regions, region_sizes = _regions(known, layers, mine[d], cells)
     representative = np.arange(len(rows)) if known.box is None else known.box.representative
     return Piece(
@@ -218,14 +212,8 @@ def _piece(
         rows=read_only(rows.compress(own)),
         points=read_only(places.compress(own, axis=0)),
         representative=read_only(rows.take(representative.compress(own))),
-        simplices=tuple(
-            read_only(rows.take(simplices.compress(keep, axis=0)))
-            for simplices, keep in zip(layers.simplices, mine, strict=True)
-        ),
-        radii=tuple(
-            read_only(values.compress(keep))
-            for values, keep in zip(layers.radii, mine, strict=True)
-        ),
+        simplices=tuple(read_only(rows.take(found)) for found in _kept(layers.simplices, mine)),
+        radii=tuple(_kept(layers.radii, mine)),
         facet_kinds=read_only((1 + beside).astype(np.int8)),
         boundary=_no_boundary(d, rows.dtype),
         boundary_size=float(_sizes(known.places, border).sum()),
@@ -233,11 +221,24 @@ def _piece(
         components=_components(known, layers, mine),
         regions=regions,
         fronts=Border(0, np.empty((0, 4), dtype=rows.dtype), np.empty(0, dtype=np.int32)),
-        offsets=tuple(
-            read_only(offsets.compress(keep, axis=0))
-            for offsets, keep in zip(layers.offsets, mine, strict=True)
-        ),
+        offsets=tuple(_kept(layers.offsets, mine)),
     )
+
+
+def _kept(arrays: list[Any], kept: list[BoolArray]) -> list[Any]:
+    return [
+        read_only(array.compress(keep, axis=0))
+        for array, keep in zip(arrays, kept, strict=True)
+    ]
+
+
+def _cells_at(layers: _Layers, facets: BoolArray, radius: float) -> IntArray:
+    """Return the two cells of each of some facets, -1 for what is not there at the radius."""
+    if not len(layers.cofaces):
+        return np.full((np.count_nonzero(facets), 2), -1, dtype=np.int32)
+    cells = layers.cofaces.compress(facets, axis=0)
+    there = (cells >= 0) & (layers.radii[-1] <= radius).take(cells, mode="clip")
+    return np.where(there, cells, np.int32(-1))
 
 
 def _sizes(places: FloatArray, simplices: IntArray) -> FloatArray:
