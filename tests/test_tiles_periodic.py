@@ -313,7 +313,10 @@ def test_commands(tmp_path):
     assert ran.exit_code == 0, ran.output
     shape = am.AlphaComplex(points, periods=(10, None)).at(0.5)
     assert json.loads(ran.stdout)["betti"] == list(shape.betti)
-    assert f"{shape.betti[1]} loops" in run(app, ["tiles", "merge", out]).stdout
+    assert json.loads(ran.stdout)["periods"] == [10.0, None]
+    told = run(app, ["tiles", "merge", out]).stdout
+    assert f"{shape.betti[1]} loops" in told
+    assert "1 component in 1 direction" in told
     failed = run(app, ["tiles", "merge", out, "-o", str(tmp_path / "outline.geojson")])
     assert failed.exit_code != 0
     assert "open clouds alone" in failed.output

@@ -17,13 +17,15 @@ from alphamesh.cli.command import (
     write_section,
 )
 from alphamesh.cli.outputs import Output, Outputs, check_targets, write_bytes
-from alphamesh.cli.periods import betti_text, periods_option
+from alphamesh.cli.periods import betti_text, periods_facts, periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import counted, number, print_json, print_lines, size_text
 from alphamesh.cli.types import AUTO
 from alphamesh.cli.weights import weights_option
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from alphamesh.tiles import Summary, TiledComplex
 
 __all__ = ["command"]
@@ -206,13 +208,23 @@ def _classes(*, in_space: bool, periodic: bool) -> tuple[tuple[str, str], ...]:
     return component, ("hole", "holes")
 
 
+def _around(windings: Sequence[int]) -> str:
+    """Return which components run around a periodic box, in words."""
+    found = [
+        f"{counted(count, 'component')} in {counted(k, 'direction')}"
+        for k, count in enumerate(windings)
+        if k > 0 and count > 0
+    ]
+    return ", ".join(found) or ("no component" if windings else "")
+
+
 def _tell(result: TiledComplex, as_json: bool, more: dict[str, Any]) -> None:
     from alphamesh.tiles.store import TABLES
 
     facts: Summary = result.summary
     if as_json:
         numbers = asdict(facts) | {"tiles": len(result.tiling), "folder": str(result.folder)}
-        print_json(numbers | more)
+        print_json(numbers | periods_facts(result)[0] | more)
         return
     in_space = result.tiling.dimension == 3
     names = _classes(in_space=in_space, periodic=result.periods is not None)
@@ -220,6 +232,7 @@ def _tell(result: TiledComplex, as_json: bool, more: dict[str, Any]) -> None:
     lines = {
         "Folder": f"{result.folder}  ({counted(len(result.tiling), 'tile')})",
         "Points": f"{facts.points:,}",
+        **periods_facts(result)[1],
         "Radius": number(facts.radius),
         "": more.get("reason", ""),
         "Complex": ", ".join(
@@ -228,6 +241,7 @@ def _tell(result: TiledComplex, as_json: bool, more: dict[str, Any]) -> None:
         "Shape": betti_text(facts.betti, names)
         + (f", Euler number {facts.euler_characteristic:,}" if len(facts.betti) == 1 else "")
         + f", {counted(facts.regions, 'region')}",
+        "Around the box": _around(facts.windings or ()),
         sizes[0]: number(facts.size),
         sizes[1]: number(facts.boundary_size),
     }

@@ -133,7 +133,11 @@ def choose_columns(
 
 
 def find_column(
-    source: Source, item: str | int, names: Sequence[str] | None, width: int
+    source: Source,
+    item: str | int,
+    names: Sequence[str] | None,
+    width: int,
+    option: str = "columns",
 ) -> int:
     """Return the number of one column asked for by its name or number."""
     listed = _columns_text(names, width)
@@ -145,11 +149,11 @@ def find_column(
             if same:
                 raise source.failure(
                     f"has several columns named {item!r} (numbers "
-                    f"{', '.join(map(str, same))}, from 0); choose by number with columns="
+                    f"{', '.join(map(str, same))}, from 0); choose by number with {option}="
                 )
         if not (item.isascii() and item.isdigit()):
             raise source.failure(
-                f"has no column {item!r}; it has {listed}; choose among these with columns="
+                f"has no column {item!r}; it has {listed}; choose among these with {option}="
             )
     number = int(item)
     if not 0 <= number < width:

@@ -273,7 +273,7 @@ def _column_of_weights(weights: object) -> str:
 def _find_weights(file: Path, name: str, columns: tuple[int, ...]) -> int:
     """Return the number of the column of weights in a file."""
     names, width = FORMATS[kind_of(file)].names(file)
-    found = find_column(open_source(file), name, names, width)
+    found = find_column(open_source(file), name, names, width, "weights")
     if found in columns:
         raise ParameterError(
             f"weights={name!r} is a column of coordinates of {file}; weights need a column of "

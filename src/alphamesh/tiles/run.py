@@ -103,6 +103,8 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
     radius = _checked_radius(radius, weighted=data.weights is not None)
     if tile_points < 1:
         raise ParameterError(f"tile_points must be at least 1; got {tile_points!r}")
+    if data.periods is not None and data.weights is None:  # else, weights come first
+        check_box(data.periods, radius)
     store = Store(Path(folder).absolute())
     _begin(store, data, radius, int(tile_points), overwrite=overwrite)
     told = _unheard if progress is None else progress
