@@ -26,7 +26,8 @@ from alphamesh.tiles.weighing import WeightRange
 from alphamesh.tiles.workers import Workers, go_on, workers_of
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import FloatArray
+    from alphamesh._arrays import CountArray, FloatArray, IntArray
+    from alphamesh.tiles.pieces import Piece
 
 __all__ = ["run"]
 
@@ -245,27 +246,9 @@ def _spread(chunk: Chunk, folder: Path, radius: float) -> None:
     tiling = store.plan()
     assert tiling is not None
     spool = store.spool(tiling)
-    if spool.holds(chunk.number):
-        return
-    # Weights, and moves round a box, go along with the points as one coordinate more each.
-    table, reach = chunk.read_weighted(), _reach(store, radius)
-    if store.periods is None:
-        spool.write(chunk.number, *tiling.spread(table, reach, go_on))
-        return
-    points = table[:, : tiling.dimension]
-    offsets, rows, moves = spread_in_box(tiling, points, store.periods, reach, go_on)
-    told = np.column_stack((table.take(rows, axis=0), (moves + 1) @ _DIGITS[: moves.shape[1]]))
-    spool.write(chunk.number, offsets, rows, told)
-
-
-# Moves of -1, 0 or 1 as one number.
-_DIGITS = 3 ** np.arange(3)
-
-
-def _reach(store: Store, radius: float) -> float:
-    """Return the radius of the largest balls."""
-    weights = store.weight_range()
-    return radius if weights is None else weights.reach(radius)
+    if not spool.holds(chunk.number):
+        found = _sent(store, tiling, chunk.read_weighted(), radius)
+        spool.write(chunk.number, *found)
 
 
 def _solve_tile(tile: int, folder: Path, radius: float, row_type: Any) -> int:
@@ -273,20 +256,55 @@ def _solve_tile(tile: int, folder: Path, radius: float, row_type: Any) -> int:
     store = Store(folder)
     tiling = store.plan()
     assert tiling is not None
-    rows, table = store.spool(tiling).points_of(tile, store.first_rows(), row_type)
+    rows, points = store.spool(tiling).points_of(tile, store.first_rows(), row_type)
+    piece = _solved(store, tiling, tile, rows, points, radius)
+    store.write_tile(piece)
+    return tile
+
+
+# What goes along with the points, as one coordinate more each: weights, and moves round a
+# periodic box, of -1, 0 or 1 as one number.
+_DIGITS = 3 ** np.arange(3)
+
+
+def _sent(
+    store: Store, tiling: Tiling, table: FloatArray, radius: float
+) -> tuple[CountArray, IntArray, FloatArray]:
+    """Return the points of a chunk, with all that goes along, sorted into tiles."""
+    reach = _reach(store, radius)
+    if store.periods is None:
+        return tiling.spread(table, reach, go_on)
+    points = table[:, : tiling.dimension]
+    offsets, rows, moves = spread_in_box(tiling, points, store.periods, reach, go_on)
+    codes = (moves + 1) @ _DIGITS[: moves.shape[1]]
+    return offsets, rows, np.column_stack((table.take(rows, axis=0), codes))
+
+
+def _solved(  # noqa: PLR0913, PLR0917 (a tile, its points and the radius)
+    store: Store,
+    tiling: Tiling,
+    tile: int,
+    rows: CountArray,
+    table: FloatArray,
+    radius: float,
+) -> Piece:
+    """Return what a tile owns, from its points and all that goes along with them."""
     d, weight_range = tiling.dimension, store.weight_range()
     points = np.ascontiguousarray(table[:, :d])
     weights = None if weight_range is None else np.ascontiguousarray(table[:, d])
     if store.periods is None:
-        piece = solve(
+        return solve(
             tiling, tile, rows, points, radius,
             weights=weights, weight_range=weight_range, progress=go_on,
         )  # fmt: skip
-    else:
-        moves = table[:, -1:].astype(np.int64) // _DIGITS[:d] % 3 - 1
-        piece = solve_in_box(
-            tiling, tile, rows, points, moves.astype(np.int8), store.periods, radius,
-            weights=weights, weight_range=weight_range, progress=go_on,
-        )  # fmt: skip
-    store.write_tile(piece)
-    return tile
+    moves = table[:, -1:].astype(np.int64) // _DIGITS[:d] % 3 - 1
+    return solve_in_box(
+        tiling, tile, rows, points, moves.astype(np.int8), store.periods, radius,
+        weights=weights, weight_range=weight_range, progress=go_on,
+    )  # fmt: skip
+
+
+def _reach(store: Store, radius: float) -> float:
+    """Return the radius of the largest balls."""
+    weights = store.weight_range()
+    return radius if weights is None else weights.reach(radius)
