@@ -306,7 +306,6 @@ void PowerEdges<P>::set(std::size_t i, const Weighted<P>& a, const Weighted<P>& 
   bw_[i] = b.w;
 }
 
-// L / 4 - (w_a + w_b) / 2 + (w_a - w_b)^2 / (4 L); some ten roundings of the terms.
 template <>
 void PowerEdges<SheetPoint>::measure(std::size_t count, const Lattice& lattice) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -316,6 +315,7 @@ void PowerEdges<SheetPoint>::measure(std::size_t count, const Lattice& lattice) 
   }
 }
 
+// L / 4 - (w_a + w_b) / 2 + (w_a - w_b)^2 / (4 L); some ten roundings of the terms.
 template <class P>
 void PowerEdges<P>::measure(std::size_t count, const Lattice& lattice) {
   for (std::size_t i = 0; i < count; ++i) {

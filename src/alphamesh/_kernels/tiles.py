@@ -82,7 +82,7 @@ def tile2(  # noqa: PLR0913, PLR0917 (a tile, its points and the radius)
         below zero.
     threads : int, optional
     progress : callable, optional
-    weights : (n,) float64, C-contiguous, optional
+    weights : (n,) float64, optional
         Squared radii of balls.
 
     Raises
@@ -92,6 +92,8 @@ def tile2(  # noqa: PLR0913, PLR0917 (a tile, its points and the radius)
     """
     threads = resolve_threads(threads)
     _check_progress(progress)
+    if weights is not None:
+        weights = np.ascontiguousarray(weights, dtype=np.float64)
     share = Share2(
         *_core.tile2(
             points, weights, np.ascontiguousarray(rows), bounds, radius, threads, progress
