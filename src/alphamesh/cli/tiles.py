@@ -198,14 +198,14 @@ def _write_polygons(result: TiledComplex, path: Path) -> None:
     write_bytes(json.dumps(content).encode(), path)
 
 
-def _classes(*, in_space: bool, periodic: bool) -> tuple[tuple[str, str], ...]:
-    """Return singular and plural of what each Betti number counts, as far as tiles know."""
-    component, whole = ("component", "components"), ("whole box", "whole boxes")
-    if periodic:
-        return (component,) if in_space else (component, ("loop", "loops"), whole)
-    if in_space:
-        return component, ("tunnel", "tunnels"), ("void", "voids")
-    return component, ("hole", "holes")
+def _shape(betti: Sequence[int | None], *, in_space: bool, periodic: bool) -> str:
+    """Return how many classes of each kind there are, as far as tiles know, in words."""
+    loop = "loop" if periodic else "tunnel" if in_space else "hole"
+    names = [("component", "components"), (loop, f"{loop}s")]
+    names += [("void", "voids")] if in_space else []
+    names += [("whole box", "whole boxes")] if periodic else []
+    pairs = [(k, name) for k, name in zip(betti, names, strict=True) if k is not None]
+    return betti_text([k for k, _ in pairs], [name for _, name in pairs])
 
 
 def _around(windings: Sequence[int]) -> str:
@@ -227,7 +227,6 @@ def _tell(result: TiledComplex, as_json: bool, more: dict[str, Any]) -> None:
         print_json(numbers | periods_facts(result)[0] | more)
         return
     in_space = result.tiling.dimension == 3
-    names = _classes(in_space=in_space, periodic=result.periods is not None)
     sizes = ("Volume", "Surface area") if in_space else ("Area", "Perimeter")
     lines = {
         "Folder": f"{result.folder}  ({counted(len(result.tiling), 'tile')})",
@@ -238,8 +237,8 @@ def _tell(result: TiledComplex, as_json: bool, more: dict[str, Any]) -> None:
         "Complex": ", ".join(
             f"{count:,} {name}" for count, name in zip(facts.counts, TABLES, strict=False)
         ),
-        "Shape": betti_text(facts.betti, names)
-        + (f", Euler number {facts.euler_characteristic:,}" if len(facts.betti) == 1 else "")
+        "Shape": _shape(facts.betti, in_space=in_space, periodic=result.periods is not None)
+        + (f", Euler number {facts.euler_characteristic:,}" if None in facts.betti else "")
         + f", {counted(facts.regions, 'region')}",
         "Around the box": _around(facts.windings or ()),
         sizes[0]: number(facts.size),

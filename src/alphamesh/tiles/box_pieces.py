@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from alphamesh._arrays import read_only
-from alphamesh._kernels.outlines import connected
 from alphamesh._kernels.periodic import periodic_complex, periodic_star
-from alphamesh._weights import shifted_radii
+from alphamesh._weights import shifted_radii, signed_root
 from alphamesh.errors import ParameterError
 from alphamesh.measures import edge_lengths, tetrahedron_volumes, triangle_areas
 from alphamesh.periodic import box_cloud, wrapped_points
+from alphamesh.tiles.box_fronts import Solid, box_fronts, orientations
 from alphamesh.tiles.boxes import Periods, check_box, closed_box, reach_in_box
-from alphamesh.tiles.labels import Border
+from alphamesh.tiles.fronts import FRAME
+from alphamesh.tiles.labels import Border, labels_of
 from alphamesh.tiles.pieces import Boundary, Piece
+from alphamesh.tiles.tiling import halo_width
 from alphamesh.tiles.weighing import limits_of
 
 if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
+    from alphamesh._kernels.periodic import Layer
     from alphamesh.periodic import BoxCloud
     from alphamesh.tiles.tiling import Tiling
     from alphamesh.tiles.weighing import WeightRange
@@ -116,7 +120,7 @@ def solve_in_box(  # noqa: PLR0913, PLR0917 (a tile, its points, the box and the
         equal = weight_range.greatest
         radii = tuple(shifted_radii(values, equal) for values in piece.radii)
         piece = replace(piece, radii=radii)
-    return replace(piece, weights=read_only(heavy.compress(known.own)))
+    return replace(piece, weights=read_only(heavy.compress(known.own[: len(heavy)])))
 
 
 def _known(  # noqa: PLR0913, PLR0917 (see solve_in_box)
@@ -139,7 +143,43 @@ def _known(  # noqa: PLR0913, PLR0917 (see solve_in_box)
     near = ~own | ((places <= inner[0]) | (places >= inner[1])).any(axis=1)
     sides = np.array([0.0 if side is None else side for side in periods])
     box = box_cloud(points, periods, weights) if len(points) else None
-    return _Known(rows, own, near, box, moves, places + moves * sides, radius)
+    known = _Known(rows, own, near, box, moves, places + moves * sides, radius)
+    return known if box is None or tiling.dimension == 2 else _framed(known, box, reach)
+
+
+def _framed(known: _Known, box: BoxCloud, reach: float) -> _Known:
+    """Return the same with the corners of a box far around; they are no points of the cloud.
+
+    With these, tetrahedra fill a neighbourhood of each point.
+    """
+    most = float(max(np.abs(box.anchors).max(), 2 * box.periods.max(), box.unit))
+    most = max(most, float(np.ldexp(halo_width(reach), box.exponent)))
+    # A power of two rounds nothing, and is a multiple of the unit.
+    far = float(np.ldexp(1.0, int(np.frexp(most)[1]) + 2))
+    corners = far * np.array(list(product((-1.0, 1.0), repeat=3)))
+    count = len(known.rows)
+    weights = box.weights
+    if weights is not None:  # no heavier than the others
+        weights = np.append(weights, np.full(FRAME, weights.min()))
+    numbers = np.arange(count, count + FRAME, dtype=np.int32)
+    framed = replace(
+        box,
+        anchors=np.concatenate((box.anchors, corners)),
+        shifts=np.concatenate((box.shifts, np.zeros((FRAME, 3), dtype=np.int8))),
+        representative=np.append(box.representative, numbers),
+        weights=weights,
+    )
+    nothing = np.zeros(FRAME, dtype=bool)
+    return known._replace(
+        rows=np.append(known.rows, np.full(FRAME, np.iinfo(known.rows.dtype).max)).astype(
+            known.rows.dtype
+        ),
+        own=np.append(known.own, nothing),
+        near=np.append(known.near, nothing),
+        box=framed,
+        moves=np.concatenate((known.moves, np.zeros((FRAME, 3), dtype=np.int8))),
+        places=np.concatenate((known.places, np.ldexp(corners, -box.exponent))),
+    )
 
 
 class _Layers(NamedTuple):
@@ -149,6 +189,8 @@ class _Layers(NamedTuple):
     offsets: list[KindArray]
     radii: list[FloatArray]
     cofaces: IntArray
+    solid: Solid | None
+    """in space"""
 
 
 def _layers(known: _Known, threads: int | None, progress: Progress | None) -> _Layers:
@@ -159,6 +201,7 @@ def _layers(known: _Known, threads: int | None, progress: Progress | None) -> _L
         [np.empty((0, k + 1, d), dtype=np.int8) for k in range(d + 1)],
         [np.empty(0) for _ in range(d + 1)],
         np.empty((0, 2), dtype=np.int32),
+        None,
     )
     if known.box is None or not known.own.any():
         return made
@@ -168,15 +211,10 @@ def _layers(known: _Known, threads: int | None, progress: Progress | None) -> _L
     moves[:, :d] = known.moves.take(sites, axis=0)
     copies = box.moved(sites, moves)
     weights = np.zeros(len(sites)) if box.weights is None else box.weights.take(sites)
-    star = periodic_star(
-        copies.high, copies.low, weights, box.unit, int(np.count_nonzero(own)), progress
-    )
-    if star.dimension == 0:  # a single point, whose neighbours are all far away
-        made.simplices[0] = sites[:, np.newaxis]
-        made.offsets[0] = np.zeros((1, 1, d), dtype=np.int8)
-        value = 0.0 if box.weights is None else -float(np.ldexp(weights[0], -2 * box.exponent))
-        made.radii[0] = np.array([np.copysign(np.sqrt(abs(value)), value) + 0.0])
-        return made
+    base = int(np.count_nonzero(own))
+    star = periodic_star(copies.high, copies.low, weights, box.unit, base, progress)
+    if star.dimension == 0:
+        return _alone(made, box, int(sites[0]))
     # No point comes twice, so that each cell is met once: all count as in the box.
     layers, cofaces = periodic_complex(
         copies.rows, copies.offsets, len(sites), star.cells, box.anchors, box.shifts,
@@ -186,7 +224,36 @@ def _layers(known: _Known, threads: int | None, progress: Progress | None) -> _L
         made.simplices[k] = layer.rows
         made.offsets[k] = layer.offsets[:, :, :d]
         made.radii[k] = layer.radii
-    return made._replace(cofaces=cofaces) if star.dimension == d else made
+    if star.dimension < d:
+        return made
+    solid = None if d == 2 else _solid(layers, cofaces, copies.rows.take(star.cells))
+    return made._replace(cofaces=cofaces, solid=solid)
+
+
+def _alone(made: _Layers, box: BoxCloud, point: int) -> _Layers:
+    """Return the layers of a single point of the plane, whose neighbours are all far away."""
+    made.simplices[0] = np.array([[point]], dtype=np.int32)
+    made.offsets[0] = np.zeros((1, 1, 2), dtype=np.int8)
+    value = 0.0
+    if box.weights is not None:
+        value = -float(np.ldexp(box.weights[point], -2 * box.exponent))
+    made.radii[0] = signed_root(np.array([value]))
+    return made
+
+
+def _solid(layers: list[Layer], cofaces: IntArray, cells: IntArray) -> Solid:
+    """Return the tetrahedra and their faces; `cells` are the same, positively oriented."""
+    _, edges, triangles, tetrahedra = layers
+    return Solid(
+        edges.rows,
+        triangles.rows,
+        tetrahedra.rows,
+        triangles.faces,
+        tetrahedra.faces,
+        cofaces,
+        orientations(cells, tetrahedra.rows),
+        (edges.radii, triangles.radii, tetrahedra.radii),
+    )
 
 
 def _piece(
@@ -210,7 +277,7 @@ def _piece(
     return Piece(
         tile=tile,
         rows=read_only(rows.compress(own)),
-        points=read_only(places.compress(own, axis=0)),
+        points=read_only(places.compress(own[: len(places)], axis=0)),
         representative=read_only(rows.take(representative.compress(own))),
         simplices=tuple(read_only(rows.take(found)) for found in _kept(layers.simplices, mine)),
         radii=tuple(_kept(layers.radii, mine)),
@@ -220,9 +287,19 @@ def _piece(
         region_sizes=region_sizes,
         components=_components(known, layers, mine),
         regions=regions,
-        fronts=Border(0, np.empty((0, 4), dtype=rows.dtype), np.empty(0, dtype=np.int32)),
+        fronts=_fronts(known, layers, mine[0]),
         offsets=tuple(_kept(layers.offsets, mine)),
     )
+
+
+def _fronts(known: _Known, layers: _Layers, mine: BoolArray) -> Border:
+    """Return the parts of the complement around the tile's vertices; none in the plane."""
+    if layers.solid is None:
+        nothing = np.empty((0, 4), dtype=known.rows.dtype)
+        return Border(0, nothing, np.empty(0, dtype=np.int32))
+    there = np.zeros(len(known.rows), dtype=bool)
+    there[layers.simplices[0].compress(mine, axis=0)] = True
+    return box_fronts(layers.solid, known.rows, known.own, there, known.radius)
 
 
 def _kept(arrays: list[Any], kept: list[BoolArray]) -> list[Any]:
@@ -263,7 +340,7 @@ def _components(known: _Known, layers: _Layers, mine: list[BoolArray]) -> Border
     seen = np.zeros(len(known.rows), dtype=bool)
     seen[layers.simplices[0].compress(mine[0], axis=0)] = True
     seen[edges] = True
-    count, labels = _labels(edges, seen)
+    count, labels = labels_of(edges, seen)
     shared = seen & known.near
     border = _border(count, known.rows.compress(shared)[:, np.newaxis], labels.compress(shared))
     return replace(border, moves=read_only(known.moves.compress(shared, axis=0)))
@@ -276,22 +353,13 @@ def _regions(
     corners = layers.simplices[-1]
     seen = mine.copy()
     seen[cells[cells >= 0]] = True
-    count, labels = _labels(cells.compress((cells >= 0).all(axis=1), axis=0), seen)
+    count, labels = labels_of(cells.compress((cells >= 0).all(axis=1), axis=0), seen)
     own_sizes = _sizes(known.places, corners.compress(mine, axis=0))
     sizes = np.zeros(count)
     np.add.at(sizes, labels.compress(mine), own_sizes)
     shared = seen & ~known.own.take(corners).all(axis=1)
     keys = known.rows.take(corners.compress(shared, axis=0))
     return _border(count, keys, labels.compress(shared)), read_only(sizes)
-
-
-def _labels(links: IntArray, seen: BoolArray) -> tuple[int, CountArray]:
-    """Return how many parts what is seen has, and their numbers; -1 for the rest."""
-    parts = connected(len(seen), np.ascontiguousarray(links, dtype=np.int32))
-    found, numbers = np.unique(parts.compress(seen), return_inverse=True)
-    labels = np.full(len(seen), -1, dtype=np.int64)
-    labels[seen] = numbers
-    return len(found), labels
 
 
 def _border(count: int, keys: CountArray, labels: CountArray) -> Border:

@@ -14,9 +14,9 @@ from alphamesh._kernels.outlines import connected
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from alphamesh._arrays import CountArray, IntArray, KindArray
+    from alphamesh._arrays import BoolArray, CountArray, IntArray, KindArray
 
-__all__ = ["Border", "join", "numbered", "shared"]
+__all__ = ["Border", "join", "labels_of", "numbered", "shared"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -79,3 +79,19 @@ def shared(keys: CountArray) -> tuple[CountArray, CountArray]:
     keys = keys.take(order, axis=0)
     same = (keys[1:] == keys[:-1]).all(axis=1)
     return order[:-1].compress(same), order[1:].compress(same)
+
+
+def labels_of(links: IntArray | CountArray, seen: BoolArray) -> tuple[int, CountArray]:
+    """Return how many parts the seen nodes of a graph make, and their numbers; -1 for the rest.
+
+    Parameters
+    ----------
+    links : (k, 2) int
+        Nodes that belong together.
+    seen : (n,) bool
+    """
+    parts = connected(len(seen), np.ascontiguousarray(links, dtype=np.int32))
+    found, numbers = np.unique(parts.compress(seen), return_inverse=True)
+    labels = np.full(len(seen), -1, dtype=np.int64)
+    labels[seen] = numbers
+    return len(found), labels

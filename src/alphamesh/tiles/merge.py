@@ -66,10 +66,10 @@ class Summary:
     singular_facets, regular_facets, interior_facets : int
         Facets are edges in the plane, triangles in space.
     euler_characteristic : int
-    betti : tuple of int
-        Components and holes; in space components, tunnels and voids. In a periodic box of
-        the plane components, loops, and 1 if all is filled; in one of space components
-        alone, as loops that run around the box are not told from others.
+    betti : tuple of int or None
+        Components and holes; in space components, tunnels and voids. In a periodic box
+        components, loops (voids) and 1 if all is filled. In a box of space, loops and
+        voids are None where a component runs around it in more than one direction.
     regions : int
         Sets of cells connected by facets.
     size, boundary_size : float
@@ -86,7 +86,7 @@ class Summary:
     regular_facets: int
     interior_facets: int
     euler_characteristic: int
-    betti: tuple[int, ...]
+    betti: tuple[int | None, ...]
     regions: int
     size: float
     boundary_size: float
@@ -138,6 +138,7 @@ def merge(
     ranks = np.empty(regions, dtype=np.int32)
     ranks[order] = np.arange(regions, dtype=np.int32)
     euler = sum(count if k % 2 == 0 else -count for k, count in enumerate(counts))
+    around = windings([part.components for part in parts]) if periodic else None
     summary = Summary(
         radius=radius,
         points=sum(part.points for part in parts),
@@ -146,11 +147,15 @@ def merge(
         regular_facets=kinds[SimplexKind.REGULAR],
         interior_facets=kinds[SimplexKind.INTERIOR],
         euler_characteristic=euler,
-        betti=_betti_in_box(parts, euler, kinds) if periodic else _betti(parts, euler),
+        betti=(
+            _betti(parts, euler)
+            if around is None
+            else _betti_in_box(parts, euler, kinds, around)
+        ),
         regions=regions,
         size=math.fsum(size for part in parts for size in part.region_sizes.tolist()),
         boundary_size=math.fsum(part.boundary_size for part in parts),
-        windings=windings([part.components for part in parts]) if periodic else None,
+        windings=around,
     )
     return summary, [ranks.take(label) for label in labels], read_only(sizes.take(order))
 
@@ -165,16 +170,27 @@ def _betti(parts: Sequence[Part], euler: int) -> tuple[int, ...]:
     return components, components + voids - euler, voids
 
 
-def _betti_in_box(parts: Sequence[Part], euler: int, kinds: Sequence[int]) -> tuple[int, ...]:
-    """Return the Betti numbers on a torus, as far as components and the Euler number tell.
+def _betti_in_box(
+    parts: Sequence[Part], euler: int, kinds: Sequence[int], around: Sequence[int]
+) -> tuple[int | None, ...]:
+    """Return the Betti numbers in a periodic box, as far as tiles can tell them.
 
-    A part of a surface without a border is all of it.
+    In the plane, a part of a surface without a border is all of it. In space, b2 is the
+    number of components of the complement less one, and more where the complement does not
+    run around the box in all its directions. That it does if no component of the complex
+    spans two of them; then sides are counted as in open space.
     """
-    components, _ = join([part.components for part in parts])
-    if len(parts[0].counts) > 3:
-        return (components,)
+    components = sum(around)
     filled = int(kinds[SimplexKind.INTERIOR] > 0 and kinds[SimplexKind.REGULAR] == 0)
-    return components, components + filled - euler, filled
+    if len(parts[0].counts) == 3:
+        return components, components + filled - euler, filled
+    if filled:
+        return 1, 3, 3, 1
+    if sum(around[2:]) > 0:
+        return components, None, None, 0
+    sides, _ = join([part.fronts for part in parts])
+    voids = sides - components
+    return components, components + voids - euler, voids, 0
 
 
 def outline(boundaries: Sequence[Boundary], region_labels: Sequence[IntArray]) -> Rings:
