@@ -140,7 +140,7 @@ def places(dimension):
     return {
         "uniform": (rng.random((count, dimension)) * side * 5 - 7, side),
         "grid": (grid, side),
-        "tenths": (grid[: len(grid) // 2] * 0.1 + 0.05, side * 0.1),
+        "tenths": (grid[:150] * 0.1 + 0.05, side * 0.1),
         "clusters": (
             np.concatenate([c + rng.normal(0, 0.5, (60, dimension)) for c in centre]),
             side,
@@ -175,7 +175,6 @@ def test_union_is_the_whole_with_weights(dimension, place):
     if place == "uniform":
         assert_whole(points, periods, -0.3 * unit**0.5, 5, weights)
         assert_whole(points, periods, 0.3, 5, np.full(len(points), 0.2))
-        assert_whole(points, periods, -0.5, 5, np.full(len(points), 0.2))
 
 
 def test_a_full_box_is_a_torus():
@@ -191,7 +190,7 @@ def test_a_full_box_is_a_torus():
 coordinates = st.integers(-3, 20).map(float)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(
     st.integers(2, 3),
     st.lists(

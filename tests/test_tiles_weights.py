@@ -129,7 +129,7 @@ def heavinesses(count):
 def test_union_is_the_whole(dimension, place, heavy):
     points = places(dimension)[place]
     weights = heavinesses(len(points))[heavy]
-    for radius, count in ((-0.4, 3), (0.0, 1), (0.0, 8), (0.6, 5)):
+    for radius, count in ((-0.4, 3), (0.0, 8), (0.6, 5)):
         assert_whole(points, weights, radius, count, topology=dimension == 2 or count == 8)
 
 
@@ -159,7 +159,7 @@ def test_equal_weights_shift_values(weight):
     assert_whole(places(3)["uniform"], np.full(700, weight), 0.4, 3)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(
     st.floats(-4, 4).filter(bool), st.floats(-4, 4), st.sampled_from([0.0, 1e-300, 1e100, 1.0])
 )
@@ -193,7 +193,7 @@ coordinates = st.integers(-3, 3).map(float)
 heavy = st.one_of(st.integers(-2, 6).map(float), st.floats(-2, 4, width=16))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(
     st.integers(2, 3),
     st.lists(st.tuples(coordinates, coordinates, coordinates, heavy), max_size=30),
