@@ -119,7 +119,7 @@ def heavinesses(count):
         "of both signs": rng.normal(0, 0.4, count),
         "hiding": rng.exponential(0.5, count),
         "integers": rng.integers(-1, 3, count).astype(float),
-        "few heavy": np.where(rng.random(count) < 0.01, 6.0, 0.1),
+        "few heavy": np.where(rng.random(count) < 0.01, 3.0, 0.1),
     }
 
 
