@@ -98,9 +98,8 @@ class Store:
 
     def weight_range(self) -> WeightRange | None:
         """Return the range of the weights once there is a plan; None if there are none."""
-        arrays = self._arrays(_PLAN)
-        assert arrays is not None
-        return WeightRange(*arrays[_RANGE].tolist()) if _RANGE in arrays else None
+        found = (self._arrays(_PLAN) or {}).get(_RANGE)
+        return None if found is None else WeightRange(*found.tolist())
 
     def write_plan(
         self, tiling: Tiling, first_rows: CountArray, weights: WeightRange | None = None
