@@ -208,9 +208,9 @@ Measure Measurer::measure_carefully(const Corner* c) const {
   const Orthosphere<K, Dd> sphere(arm, changes);
   for (int i = 0; i < K; ++i) {
     const double weights =
-        box_.weight == nullptr ? 0.0
-                               : factor_sq * (std::fabs(box_.weight[c[0].row]) +
-                                              std::fabs(box_.weight[c[i + 1].row]));
+        box_.weight == nullptr
+            ? 0.0
+            : factor_sq * (std::fabs(box_.weight[c[0].row]) + std::fabs(box_.weight[c[i + 1].row]));
     most = std::max(most, sphere.gram[i][i].h);
     highest = std::max(highest, sphere.gram[i][i].h + weights);
     diagonal *= sphere.gram[i][i].h;
@@ -269,8 +269,8 @@ double Measurer::exact_square(const Corner* c, int exponent) const {
   Big sum;
   for (int i = 0; i < K; ++i) sum = sum + sphere.part[i + 1] * sphere.lift[i];
   if (box_.weight != nullptr) {
-    sum = sum + sphere.determinant *
-                    (factor * (factor * Big(Dd{-4.0 * box_.weight[c[0].row], 0.0})));
+    sum =
+        sum + sphere.determinant * (factor * (factor * Big(Dd{-4.0 * box_.weight[c[0].row], 0.0})));
   }
   return 0.25 * (sum.estimate() / sphere.determinant.estimate());
 }
