@@ -16,7 +16,7 @@ import alphamesh as am
 from alphamesh.errors import FileWriteError, MissingLibraryError, ParameterError
 from alphamesh.view import page_text, payload
 from alphamesh.view.bundle import bundle, style
-from alphamesh.view.packing import pack, rising_bits
+from alphamesh.view.packing import pack, rising_bits, signed_bits
 from node import SCRIPTS, STATIC, run_node
 from strategies import clouds
 
@@ -33,6 +33,24 @@ CASES = {
     "none": np.empty((0, 2)),
     "tiny": np.random.default_rng(0).random((40, 2)) * 1e-140,
     "large": np.random.default_rng(0).random((40, 2)) * 1e140,
+}
+
+
+# Points with weights: some are hidden, some come late, some are heavier than all else.
+_HEAVY = np.random.default_rng(8).lognormal(-3.2, 0.8, 120) ** 2
+WEIGHTED = {
+    "random": (np.random.default_rng(7).random((120, 2)), _HEAVY),
+    "hidden": (np.random.default_rng(7).random((60, 2)), np.repeat([0.01, -3.0], 30)),
+    "grid": (GRID, np.tile([0.25, -1.0], 10)),
+    "duplicates": (np.repeat(GRID, 2, axis=0), np.arange(40) / 32),
+    "equal": (GRID * 0.7, np.full(20, 0.3)),
+    "zero": (GRID, np.zeros(20)),
+    "negative": (CASES["random"][:40], np.linspace(-5, -1, 40)),
+    "line": (CASES["line"], np.array([0, 3, 0, 1, 1, 0.5, 9])),
+    "one": (CASES["one"], [4.0]),
+    "none": (CASES["none"], []),
+    "space": (np.random.default_rng(9).random((90, 3)), _HEAVY[:90]),
+    "one in space": ([[1.0, 2, 3]], [-4.0]),
 }
 
 
@@ -116,6 +134,53 @@ def test_the_page_counts_what_the_complex_holds_in_space(name, tmp_path):
         assert facts["border"] == pytest.approx(shape.surface_area, rel=1e-3)
 
 
+@pytest.mark.parametrize("name", WEIGHTED)
+def test_the_page_counts_what_a_complex_with_weights_holds(name, tmp_path):
+    points, weights = WEIGHTED[name]
+    cx = am.AlphaComplex(points, weights=weights)
+    changes = cx.critical_radii()
+    radii = np.unique(np.concatenate((changes, changes - 1e-9, changes[-1:] + 1)))[::7]
+    shown = told(cx, radii, tmp_path)
+    assert sorted(shown["hidden"]) == cx.hidden.tolist()
+    assert sorted(shown["rows"]) == cx.simplices[0][:, 0].tolist()
+    # The first vertex does not count as a change.
+    assert shown["changes"] == cx.persistence().betti_curve().radii[1:].tolist()
+    for radius, facts in zip(radii, shown["facts"], strict=True):
+        shape = cx.at(radius)
+        betti = cx.persistence().betti_numbers(radius).tolist()
+        assert facts["betti"] == facts["curves"] == betti
+        assert facts["present"] == [int((values <= radius).sum()) for values in cx.radii]
+        assert facts["isolated"] == len(shape.isolated_vertices)
+        size = shape.volume if len(cx.simplices) == 4 else shape.area
+        assert facts["size"] == pytest.approx(size, rel=1e-3, abs=1e-9)
+
+
+def test_the_pieces_of_power_cells_are_the_cells(tmp_path):
+    points, weights = WEIGHTED["random"]
+    cx = am.AlphaComplex(points, weights=weights)
+    shown = told(cx, [], tmp_path)
+    # At a radius that leaves no gap, cells are cut at their ridges alone.
+    whole = cx.restricted_voronoi(float(max(cx.radii[2]))).area[shown["rows"]]
+    areas = np.array(shown["cells"]) * shown["meta"]["scale"] ** 2
+    inner = ~np.isin(shown["rows"], cx.convex_hull.ring)
+    assert inner.sum() > 45
+    assert (whole[inner] > 0).all()
+    assert areas[inner] == pytest.approx(whole[inner], rel=2e-3, abs=1e-7)
+
+
+def test_radii_of_weighted_complexes_may_be_negative():
+    cx = am.AlphaComplex(*WEIGHTED["random"][:1], weights=_HEAVY)
+    pytest.importorskip("anywidget")
+    widget = cx.widget(-0.01)
+    assert widget.radius == -0.01
+    widget.radius = -0.02
+    assert widget.radius == -0.02
+    with pytest.raises(ParameterError, match="got nan"):
+        widget.radius = np.nan
+    lowest = min(values.min() for values in cx.radii)
+    assert cx.widget(-np.inf).radius == lowest < 0
+
+
 def test_the_surface_is_seen_from_outside(tmp_path):
     cx = am.AlphaComplex(SPACE["random"])
     shown = told(cx, [], tmp_path)
@@ -171,6 +236,15 @@ def test_packed_data_read_back_to_the_last_digit(points):
             bits = planes.reshape(wide, -1).T.copy().view(np.uint64).ravel()
             assert np.array_equal(np.cumsum(bits).view(np.float64), np.sort(cx.radii[1]))
     assert at == len(raw)
+
+
+def test_signed_bits_ascend():
+    values = np.array([-1.7e308, -2.0, -5e-324, -0.0, 0.0, 5e-324, 1.0, 1.7e308])
+    rising = np.cumsum(signed_bits(values).view(np.uint64))
+    assert (np.diff(rising.astype(object)) >= 0).all()
+    top = np.uint64(1 << 63)
+    bits = np.where(rising >= top, rising ^ top, ~rising)
+    assert np.array_equal(bits.view(np.float64), values)
 
 
 def test_rising_bits_of_zeros_of_either_sign():

@@ -162,7 +162,8 @@ test("numbers are short", () => {
 test("a radius is a number of at least 0", () => {
   const texts = ["1.5", "1,5", " 2e-3 ", "inf", "∞", "0", "-1", "", "wide", "NaN"];
   const read = [1.5, 1.5, 0.002, Infinity, Infinity, 0, null, null, null, null];
-  assert.deepEqual(texts.map(readRadius), read);
+  assert.deepEqual(texts.map((text) => readRadius(text)), read);
+  assert.deepEqual(["-1", "−0,5", "-inf"].map((text) => readRadius(text, true)), [-1, -0.5, null]);
 });
 
 test("an address gives back the state, and nonsense is left out", () => {

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alphamesh._weights import refuse_weights
 from alphamesh.betti import checked_radii
 from alphamesh.delaunay3d import outward_triangles
 from alphamesh.errors import ParameterError
 from alphamesh.filtration3d import Filtration3D
-from alphamesh.view.packing import pack, rising_bits
+from alphamesh.view.packing import pack, rising_bits, signed_bits
 
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray
@@ -25,6 +24,8 @@ __all__ = ["first_radius", "payload"]
 _TITLE = "Alpha complex"
 _NAMES = ("vertex", "edge", "triangle", "tetrahedron")
 _NONE = np.iinfo(np.uint32).max
+# Balls beyond the outermost points are shown as far as this share of half the cloud.
+_MOST_OVERHANG = 0.4
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,66 +66,113 @@ def payload(
     ------
     ParameterError
         If `radius` or `title` is not what it must be.
-    UnweightedOnlyError
-        If the points have weights.
     """
     if title is not None and not isinstance(title, str):
         raise ParameterError(f"title must be text; got {title!r}")
     filtration = persistence.filtration
-    refuse_weights(
-        filtration.weights, "interactive views", "draw pictures with cx.at(radius).plot()"
-    )
-    positions, placing = _positions(filtration)
+    orders = [_Order.of(radii) for radii in filtration.radii]
+    rows = filtration.simplices[0][:, 0].take(orders[0].order)
+    frame = _Frame.of(filtration, rows)
     meta = {
         "title": title or _TITLE,
         "ambient": filtration.points.shape[1],
-        **placing,
+        "signed": filtration.weights is not None,
+        "centre": frame.centre.tolist(),
+        "scale": frame.scale,
+        "extent": frame.extent.tolist(),
         "radius": first_radius(filtration, choice, radius),
         "choice": None if choice is None else _choice(choice),
     }
-    return pack(meta, {"positions": positions, **_arrays(persistence)})
+    arrays = {
+        "positions": frame.placed(filtration.points, rows),
+        **_arrays(persistence, orders, rows),
+        **_balls(filtration, frame, rows),
+    }
+    return pack(meta, arrays)
 
 
-def _positions(filtration: AnyFiltration) -> tuple[np.ndarray[Any, Any], dict[str, Any]]:
-    """Return the distinct points, moved and scaled into a square, or a cube, from -1 to 1."""
-    points = filtration.points.take(filtration.simplices[0][:, 0], axis=0)
-    if len(points) == 0:
-        low = high = np.zeros(points.shape[1])
-    else:
-        low, high = points.min(axis=0), points.max(axis=0)
-    centre, half = low / 2 + high / 2, high / 2 - low / 2
-    scale = float(half.max()) or 1.0
-    placed = ((points - centre) / scale).astype(np.float32)
-    extent = (half / scale).tolist()
-    return placed.ravel(), {"centre": centre.tolist(), "scale": scale, "extent": extent}
+@dataclass(frozen=True, slots=True)
+class _Frame:
+    """What moves and scales points into a square, or a cube, from -1 to 1."""
+
+    centre: FloatArray
+    scale: float
+    extent: FloatArray
+
+    @classmethod
+    def of(cls, filtration: AnyFiltration, rows: IntArray) -> _Frame:
+        points = filtration.points.take(rows, axis=0)
+        if len(points) == 0:
+            low = high = np.zeros(points.shape[1])
+        else:
+            low, high = points.min(axis=0), points.max(axis=0)
+        centre, half = low / 2 + high / 2, high / 2 - low / 2
+        ball = 0.0
+        if filtration.weights is not None:
+            ball = float(np.sqrt(filtration.weights.take(rows).max(initial=0.0)))
+        scale = float(half.max()) or ball or 1.0
+        return cls(centre, scale, half / scale + min(ball / scale, _MOST_OVERHANG))
+
+    def placed(self, points: FloatArray, rows: IntArray) -> np.ndarray[Any, Any]:
+        places = (points.take(rows, axis=0) - self.centre) / self.scale
+        return places.astype(np.float32).ravel()
 
 
-def _arrays(persistence: Persistence) -> dict[str, np.ndarray[Any, Any]]:
-    """Return the simplices, each told by its facets; corners follow from edges."""
+def _balls(
+    filtration: AnyFiltration, frame: _Frame, rows: IntArray
+) -> dict[str, np.ndarray[Any, Any]]:
+    """Return the weights of vertices, and the points that are hidden."""
+    if filtration.weights is None:
+        return {}
+    weights = filtration.weights.take(rows) / frame.scale / frame.scale
+    limit = float(np.finfo(np.float32).max)
+    arrays = {"weights": np.clip(weights, -limit, limit).astype(np.float32)}
+    if len(filtration.hidden):
+        arrays["hidden"] = filtration.hidden.astype(np.uint32)
+        arrays["hidden_positions"] = frame.placed(filtration.points, filtration.hidden)
+    return arrays
+
+
+def _arrays(
+    persistence: Persistence, orders: list[_Order], rows: IntArray
+) -> dict[str, np.ndarray[Any, Any]]:
+    """Return the simplices, each told by its facets; corners follow from edges.
+
+    Vertices are numbered in the order in which they come.
+    """
     filtration = persistence.filtration
-    rows = filtration.simplices[0]
-    orders = [_Order.of(radii) for radii in filtration.radii]
+    signed = filtration.weights is not None
+    vertices = np.empty(len(filtration.points), dtype=np.uint32)
+    vertices[rows] = np.arange(len(rows), dtype=np.uint32)
     edges = filtration.simplices[1].take(orders[1].order, axis=0)
-    arrays: dict[str, np.ndarray[Any, Any]] = {"edges": _numbered(edges, rows[:, 0]).ravel()}
+    arrays: dict[str, np.ndarray[Any, Any]] = {"edges": vertices.take(edges).ravel()}
     facets = {2: filtration.triangle_edges}
     if isinstance(filtration, Filtration3D):
         facets[3] = filtration.tetrahedron_triangles
+    bits = signed_bits if signed else rising_bits
     for k, name in enumerate(_NAMES[: len(orders)]):
-        arrays[f"{name}_values"] = rising_bits(filtration.radii[k].take(orders[k].order))
+        arrays[f"{name}_values"] = bits(filtration.radii[k].take(orders[k].order))
         if k in facets:
             faces = facets[k].take(orders[k].order, axis=0)
             arrays[f"{name}_facets"] = orders[k - 1].rank.take(faces).ravel()
-            creators = np.full(len(faces), _NONE, dtype=np.uint32)
-            pairs = persistence.pairs[k - 1]
-            ends = orders[k].rank.take(pairs[:, 1])
-            creators[ends] = orders[k - 1].rank.take(pairs[:, 0])
-            arrays[f"{name}_creators"] = creators
+        if k in facets or (k == 1 and signed):
+            arrays[f"{name}_creators"] = _creators(
+                persistence.pairs[k - 1], *orders[k - 1 : k + 1]
+            )
     if isinstance(filtration, Filtration3D):
         arrays["triangle_turned"] = _turned(filtration, orders[3].rank)[orders[2].order]
-    del arrays["vertex_values"]  # all of them come at 0
-    if len(rows) < len(filtration.points):
-        arrays["rows"] = rows[:, 0].astype(np.uint32)
+    if not signed:
+        del arrays["vertex_values"]  # all of them come at 0
+    if not np.array_equal(rows, np.arange(len(filtration.points))):
+        arrays["rows"] = rows.astype(np.uint32)
     return arrays
+
+
+def _creators(pairs: IntArray, below: _Order, here: _Order) -> np.ndarray[Any, Any]:
+    """Return which simplex began the class that each simplex ends."""
+    creators = np.full(len(here.rank), _NONE, dtype=np.uint32)
+    creators[here.rank.take(pairs[:, 1])] = below.rank.take(pairs[:, 0])
+    return creators
 
 
 def _turned(
@@ -144,22 +192,20 @@ def _turned(
     return turned
 
 
-def _numbered(simplices: IntArray, rows: IntArray) -> np.ndarray[Any, np.dtype[np.uint32]]:
-    """Return rows of points as numbers of distinct points."""
-    if len(rows) and int(rows[-1]) == len(rows) - 1:
-        return simplices.astype(np.uint32)
-    return np.searchsorted(rows, simplices).astype(np.uint32)
-
-
 def first_radius(
     filtration: AnyFiltration, choice: RadiusChoice | None, radius: float | None
 ) -> float:
     """Return the radius that is shown first: finite, whatever is given."""
     if radius is None:
         return 0.0 if choice is None else choice.radius
-    value = float(checked_radii(radius).reshape(()))
-    greatest = max((float(radii.max(initial=0.0)) for radii in filtration.radii), default=0.0)
-    return value if np.isfinite(value) else greatest
+    signed = filtration.weights is not None
+    value = float(checked_radii(radius, signed=signed).reshape(()))
+    if np.isfinite(value):
+        return value
+    values = np.concatenate(filtration.radii)
+    if len(values) == 0:
+        return 0.0
+    return float(values.max() if value > 0 else values.min())
 
 
 def _choice(choice: RadiusChoice) -> dict[str, Any]:

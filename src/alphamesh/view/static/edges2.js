@@ -2,7 +2,7 @@
 
 /**
  * @typedef {import("./plane.js").PlaneComplex} PlaneComplex
- * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./filtered.js").Facts} Facts
  */
 
 /** How often both ends of a line stand in the array: for six corners of two triangles. */

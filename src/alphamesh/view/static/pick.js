@@ -91,7 +91,7 @@ export class Picker {
     const edges = [...complex.triangleEdges.subarray(3 * triangle, 3 * triangle + 3)];
     const near = this._nearest({ vertices: corners, edges }, x, y, reach);
     if (near || exit >= 0) return near;
-    return { dimension: 2, index: triangle, corners, value: complex.triangleValues[triangle] };
+    return { dimension: 2, index: triangle, corners, value: complex.values[2][triangle] };
   }
 
   /**
@@ -107,11 +107,13 @@ export class Picker {
     /** @param {number} v */
     const away = (v) => Math.hypot(x - p[2 * v], y - p[2 * v + 1]);
     const v = least(vertices, away);
-    if (v >= 0 && away(v) <= 1.4 * reach) return { dimension: 0, index: v, corners: [v], value: 0 };
+    if (v >= 0 && away(v) <= 1.4 * reach) {
+      return { dimension: 0, index: v, corners: [v], value: complex.values[0][v] };
+    }
     const e = least(edges, (edge) => distanceToEdge(complex, edge, x, y));
     if (e < 0 || distanceToEdge(complex, e, x, y) > reach) return null;
     const corners = [complex.edges[2 * e], complex.edges[2 * e + 1]];
-    return { dimension: 1, index: e, corners, value: complex.edgeValues[e] };
+    return { dimension: 1, index: e, corners, value: complex.values[1][e] };
   }
 }
 

@@ -7,7 +7,7 @@ import { svgOfSurface } from "./svg3.js";
 import { count, counted, number } from "./text.js";
 
 /**
- * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./filtered.js").Facts} Facts
  * @typedef {import("./picture2.js").Layer} Layer
  */
 
@@ -149,7 +149,7 @@ export class Picture3 {
     if (index < 0) return null;
     const corners = [...this.complex.triangles.subarray(3 * index, 3 * index + 3)];
     const rows = corners.map((v) => this.complex.rowOf(v)).sort((a, b) => a - b);
-    const value = this.complex.triangleValues[index];
+    const value = this.complex.values[2][index];
     const alone = this.complex.cofaces.first[index] >= facts.present[3];
     return {
       simplex: { dimension: 2, index, corners, value },

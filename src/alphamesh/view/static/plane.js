@@ -1,56 +1,23 @@
 // A filtration in the plane, and the facts at a radius.
 
-import {
-  cofaceRanks,
-  cornersOf,
-  countUpTo,
-  countsBelow,
-  diagramsOf,
-  firstEdges,
-  marked,
-  sumsBefore,
-} from "./complex.js";
+import { cofaceRanks, cornersOf, countsBelow, firstEdges, sumsBefore } from "./complex.js";
+import { FilteredComplex } from "./filtered.js";
 
-/**
- * What is in the complex at a radius.
- * @typedef {object} Facts
- * @property {number} radius
- * @property {number[]} present simplices of each dimension
- * @property {number[]} betti
- * @property {number} isolated vertices without an edge
- * @property {number} singularEdges
- * @property {number} [singularTriangles]
- * @property {number} boundary facets on the boundary
- * @property {number} interior facets inside
- * @property {number} size area, or volume
- * @property {number} border perimeter, or area of the surface
- */
+/** @typedef {import("./filtered.js").Facts} Facts */
 
 /** All simplices of a cloud in the plane, sorted by filtration value. */
-export class PlaneComplex {
+export class PlaneComplex extends FilteredComplex {
   /** @param {import("./data.js").Payload} payload */
-  constructor({ meta, arrays }) {
-    this.ambient = 2;
-    this.meta = meta;
-    this.positions = /** @type {Float32Array} */ (arrays.positions);
-    this.rows = /** @type {Uint32Array | undefined} */ (arrays.rows);
-    this.edges = /** @type {Uint32Array} */ (arrays.edges);
-    this.edgeValues = /** @type {Float64Array} */ (arrays.edge_values);
+  constructor(payload) {
+    super(payload, 2);
+    const { arrays } = payload;
     this.triangleEdges = /** @type {Uint32Array} */ (arrays.triangle_facets);
-    this.triangleValues = /** @type {Float64Array} */ (arrays.triangle_values);
-    const loops = /** @type {Uint32Array} */ (arrays.triangle_creators);
-
-    this.vertexCount = this.positions.length / 2;
-    this.edgeCount = this.edgeValues.length;
-    this.triangleCount = this.triangleValues.length;
+    this.triangleCount = this.triangleEdges.length / 3;
     this.triangles = cornersOf(this.edges, this.triangleEdges);
     /** Ranks of the cofaces of each edge. */
     this.cofaces = cofaceRanks(this.triangleEdges, 3, this.edgeCount);
     this.joined = firstEdges(this.edges, this.vertexCount);
 
-    this.values = [this.edgeValues, this.triangleValues];
-    this.diagrams = diagramsOf(this.vertexCount, this.values, [loops]);
-    this._loopsBegun = sumsBefore(marked(loops, this.edgeCount));
     this._verticesJoined = countsBelow(this.joined, this.edgeCount);
     this._edgesEntered = countsBelow(this.cofaces.first, this.triangleCount);
     this._edgesLeft = countsBelow(this.cofaces.last, this.triangleCount);
@@ -98,31 +65,22 @@ export class PlaneComplex {
    * @returns {Facts}
    */
   at(radius) {
-    const edges = countUpTo(this.edgeValues, radius);
-    const triangles = countUpTo(this.triangleValues, radius);
-    const begun = this._loopsBegun[edges];
+    const present = this.present(radius);
+    const [vertices, edges, triangles] = present;
     const entered = this._edgesEntered[triangles];
     const interior = this._edgesLeft[triangles];
     const boundary = entered - interior;
     const { scale } = this.meta;
     return {
       radius,
-      present: [this.vertexCount, edges, triangles],
-      betti: [this.vertexCount - (edges - begun), begun - triangles],
-      isolated: this.vertexCount - this._verticesJoined[edges],
+      present,
+      betti: this.betti(present),
+      isolated: vertices - this._verticesJoined[edges],
       singularEdges: edges - entered,
       boundary,
       interior,
       size: this._areas[triangles] * scale * scale,
       border: boundary ? this._lengths[triangles] * scale : 0,
     };
-  }
-
-  /**
-   * Return the row of the cloud that a vertex is.
-   * @param {number} vertex
-   */
-  rowOf(vertex) {
-    return this.rows ? this.rows[vertex] : vertex;
   }
 }

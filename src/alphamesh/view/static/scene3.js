@@ -1,8 +1,8 @@
 // The picture in space, drawn by the GPU.
 
 import { compile, vertexArray } from "./gl.js";
-import { spacingOf } from "./scene2.js";
 import * as shaders from "./shaders3.js";
+import { spacingOf } from "./sizes.js";
 import { SurfacePicker } from "./surface3.js";
 import { rgb } from "./theme.js";
 
@@ -10,7 +10,7 @@ import { rgb } from "./theme.js";
  * @typedef {import("./gl.js").GL} GL
  * @typedef {import("./gl.js").Program} Program
  * @typedef {import("./space.js").SpaceComplex} SpaceComplex
- * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./filtered.js").Facts} Facts
  * @typedef {import("./camera3.js").Camera3} Camera3
  * @typedef {{normal: number[], offset: number}} Cut
  * @typedef {{facts: Facts, camera: Camera3, layers: Record<string, boolean>, palette: any,

@@ -1,50 +1,26 @@
 // A filtration in space, and the facts at a radius.
 
-import {
-  cofaceRanks,
-  cornersOf,
-  countUpTo,
-  countsBelow,
-  diagramsOf,
-  firstEdges,
-  marked,
-  NEVER,
-  sumsBefore,
-} from "./complex.js";
+import { cofaceRanks, cornersOf, countsBelow, firstEdges, sumsBefore } from "./complex.js";
+import { FilteredComplex } from "./filtered.js";
 
-/** @typedef {import("./plane.js").Facts} Facts */
+/** @typedef {import("./filtered.js").Facts} Facts */
 
 /** All simplices of a cloud in space, sorted by filtration value. */
-export class SpaceComplex {
+export class SpaceComplex extends FilteredComplex {
   /** @param {import("./data.js").Payload} payload */
-  constructor({ meta, arrays }) {
-    this.ambient = 3;
-    this.meta = meta;
-    this.positions = /** @type {Float32Array} */ (arrays.positions);
-    this.rows = /** @type {Uint32Array | undefined} */ (arrays.rows);
-    this.edges = /** @type {Uint32Array} */ (arrays.edges);
-    this.edgeValues = /** @type {Float64Array} */ (arrays.edge_values);
-    this.triangleValues = /** @type {Float64Array} */ (arrays.triangle_values);
-    this.tetrahedronFacets = /** @type {Uint32Array} */ (arrays.tetrahedron_facets);
-    this.tetrahedronValues = /** @type {Float64Array} */ (arrays.tetrahedron_values);
+  constructor(payload) {
+    super(payload, 3);
+    const { arrays } = payload;
     const triangleEdges = /** @type {Uint32Array} */ (arrays.triangle_facets);
-    const loops = /** @type {Uint32Array} */ (arrays.triangle_creators);
-    const voids = /** @type {Uint32Array} */ (arrays.tetrahedron_creators);
-
-    this.vertexCount = this.positions.length / 3;
-    this.edgeCount = this.edgeValues.length;
-    this.triangleCount = this.triangleValues.length;
-    this.tetrahedronCount = this.tetrahedronValues.length;
+    this.tetrahedronFacets = /** @type {Uint32Array} */ (arrays.tetrahedron_facets);
+    this.triangleCount = triangleEdges.length / 3;
+    this.tetrahedronCount = this.tetrahedronFacets.length / 4;
     this.triangles = cornersOf(this.edges, triangleEdges);
     this.cofaces = cofaceRanks(this.tetrahedronFacets, 4, this.triangleCount);
     /** The rank of the first triangle of each edge. */
     this.covered = cofaceRanks(triangleEdges, 3, this.edgeCount).first;
     this.joined = firstEdges(this.edges, this.vertexCount);
 
-    this.values = [this.edgeValues, this.triangleValues, this.tetrahedronValues];
-    this.diagrams = diagramsOf(this.vertexCount, this.values, [loops, voids]);
-    this._loopsBegun = sumsBefore(marked(loops, this.edgeCount));
-    this._loopsEnded = sumsBefore(loops.map((creator) => (creator === NEVER ? 0 : 1)));
     this._verticesJoined = countsBelow(this.joined, this.edgeCount);
     this._edgesCovered = countsBelow(this.covered, this.triangleCount);
     this._entered = countsBelow(this.cofaces.first, this.tetrahedronCount);
@@ -107,20 +83,17 @@ export class SpaceComplex {
    * @returns {Facts}
    */
   at(radius) {
-    const edges = countUpTo(this.edgeValues, radius);
-    const triangles = countUpTo(this.triangleValues, radius);
-    const tetrahedra = countUpTo(this.tetrahedronValues, radius);
-    const begun = this._loopsBegun[edges];
-    const ended = this._loopsEnded[triangles];
+    const present = this.present(radius);
+    const [vertices, edges, triangles, tetrahedra] = present;
     const entered = this._entered[tetrahedra];
     const interior = this._left[tetrahedra];
     const boundary = entered - interior;
     const { scale } = this.meta;
     return {
       radius,
-      present: [this.vertexCount, edges, triangles, tetrahedra],
-      betti: [this.vertexCount - (edges - begun), begun - ended, triangles - ended - tetrahedra],
-      isolated: this.vertexCount - this._verticesJoined[edges],
+      present,
+      betti: this.betti(present),
+      isolated: vertices - this._verticesJoined[edges],
       singularEdges: edges - this._edgesCovered[triangles],
       singularTriangles: triangles - entered,
       boundary,
@@ -128,14 +101,6 @@ export class SpaceComplex {
       size: this._volumes[tetrahedra] * scale ** 3,
       border: boundary ? this._areas[tetrahedra] * scale ** 2 : 0,
     };
-  }
-
-  /**
-   * Return the row of the cloud that a vertex is.
-   * @param {number} vertex
-   */
-  rowOf(vertex) {
-    return this.rows ? this.rows[vertex] : vertex;
   }
 }
 

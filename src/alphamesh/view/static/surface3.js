@@ -4,7 +4,7 @@ import { dot } from "./camera3.js";
 
 /**
  * @typedef {import("./space.js").SpaceComplex} SpaceComplex
- * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./filtered.js").Facts} Facts
  */
 
 /** Picks simplices into arrays that are used again and again. */
