@@ -55,8 +55,7 @@ def plot_periodic(
     """
     if shape.points.shape[1] != 2:
         raise DimensionError(
-            "periodic boxes in space are not drawn; look at corners(2) or corners(3) of the "
-            "shape, which are in one piece across borders"
+            "these points lie in space; draw them with alphamesh.plot.plot_periodic_in_space"
         )
     if not 0 <= margin <= 1:
         raise ParameterError(f"margin must be a share of the period, 0 to 1; got {margin!r}")
