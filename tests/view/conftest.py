@@ -50,6 +50,29 @@ def solid(hollow, tmp_path_factory):
     return path
 
 
+@pytest.fixture(scope="package")
+def crowns(tmp_path_factory):
+    """Discs of different sizes, some of them hidden, and their page."""
+    rng = np.random.default_rng(4)
+    trees, radii = rng.random((70, 2)) * [60, 48], rng.lognormal(0.9, 0.5, 70)
+    cx = am.AlphaComplex(trees, weights=radii**2)
+    path = tmp_path_factory.mktemp("view") / "crowns.html"
+    cx.view(path, title="Crowns")
+    return cx, path
+
+
+@pytest.fixture(scope="package")
+def atoms(tmp_path_factory):
+    """The page of balls of different sizes along a helix."""
+    rng = np.random.default_rng(2)
+    t = np.linspace(0, 12, 50)
+    axis = np.column_stack((3 * np.cos(t), 3 * np.sin(t), 0.9 * t))
+    weights = rng.choice([1.7, 1.5, 1.2], 50) ** 2
+    path = tmp_path_factory.mktemp("view") / "atoms.html"
+    am.AlphaComplex(axis + rng.normal(0, 0.4, (50, 3)), weights=weights).view(path)
+    return path
+
+
 @pytest.fixture
 def room(browser, solid):
     with Visit(browser, solid) as opened:

@@ -230,8 +230,8 @@ class _Block:
         offsets = self.filtration.offsets[3][which] + self.moves[moves][:, np.newaxis]
         # A copy of a point is told by its row and how far it is from the box.
         codes = rows * 125 + (offsets + 2) @ np.array([25, 5, 1])
-        known, cells = np.unique(codes, return_inverse=True)
-        cells = cells.reshape(rows.shape).astype(np.int32)
+        known = np.unique(codes)
+        cells = np.searchsorted(known, codes).astype(np.int32)
         steps = np.stack([known // 25 % 5, known // 5 % 5, known % 5], axis=1) - 2
         places = self.filtration.positions.take(known // 125, axis=0)
         points = places + steps * self.filtration.lattice

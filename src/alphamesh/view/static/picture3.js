@@ -20,9 +20,11 @@ export class Picture3 {
   constructor(complex, limit) {
     this.complex = complex;
     this.limit = limit;
-    this.camera = new Camera3(farthest(complex.positions));
+    const overhang = Math.min(0.4, complex.reach(0));
+    this.camera = new Camera3(farthest(complex.positions) + overhang);
     /** @type {Scene3 | null} */
     this.scene = null;
+    const weighted = Boolean(complex.weights) && complex.vertexCount <= 3000;
     /** @type {Layer[]} */
     this.layers = [
       { key: "boundary", letter: "b", name: "surface", on: true },
@@ -30,8 +32,12 @@ export class Picture3 {
       { key: "singular", letter: "s", name: "singular triangles", on: true },
       { key: "lone", letter: "n", name: "edges alone", on: true },
       { key: "points", letter: "p", name: "points", on: true },
+      { key: "balls", letter: "o", name: "growing balls", on: weighted },
       { key: "cut", letter: "x", name: "cut open", on: false },
     ];
+    if (complex.hidden.rows.length) {
+      this.layers.push({ key: "hidden", letter: "h", name: "hidden points", on: true });
+    }
     this.help =
       "Drag to turn, shift-drag to move, wheel or + and − to zoom, 0 for the first view. " +
       "The cut faces you when you switch it on; its slider, or [ and ], move it.";
@@ -181,6 +187,9 @@ export class Picture3 {
    */
   rows({ present, isolated, singularEdges, singularTriangles = 0, boundary, size, border }) {
     const alone = isolated ? `${count(isolated)} alone of ${count(present[0])}` : count(present[0]);
+    const hidden = this.complex.hidden.rows.length;
+    /** @type {[string, string][]} */
+    const besides = hidden ? [["hidden", count(hidden)]] : [];
     return [
       ["boundary", count(boundary)],
       ["singular", count(singularTriangles)],
@@ -190,6 +199,7 @@ export class Picture3 {
       ["volume", number(size)],
       ["triangles", count(present[2])],
       ["surface", number(border)],
+      ...besides,
     ];
   }
 
@@ -205,6 +215,19 @@ export class Picture3 {
     ].join(", ");
   }
 
+  /**
+   * Return the balls that are shown: where, and how large.
+   * @param {{facts: Facts, layers: Record<string, boolean>}} state
+   */
+  _balls({ facts, layers }) {
+    const { positions, weights, vertexCount } = this.complex;
+    const power = this.complex.power(facts.radius);
+    return Array.from({ length: layers.balls ? vertexCount : 0 }, (_, v) => ({
+      place: positions.subarray(3 * v, 3 * v + 3),
+      radius: Math.sqrt(Math.max(0, power + (weights ? weights[v] : 0))),
+    }));
+  }
+
   /** @param {{facts: Facts, layers: Record<string, boolean>, palette: any, title: string}} state */
   svg(state) {
     this.scene?.pick(state.facts);
@@ -212,7 +235,7 @@ export class Picture3 {
     if (!picker) return "";
     /** @param {ArrayLike<number>} p */
     const kept = (p) => !this.shown || dot(this.shown.normal, p) <= this.shown.offset;
-    return svgOfSurface(picker, this.camera, kept, state);
+    return svgOfSurface(picker, this.camera, kept, { ...state, balls: this._balls(state) });
   }
 }
 

@@ -1,6 +1,7 @@
 // The picture in space, drawn by the GPU.
 
-import { compile, vertexArray } from "./gl.js";
+import { NEVER } from "./complex.js";
+import { compile, tableOf, vertexArray } from "./gl.js";
 import * as shaders from "./shaders3.js";
 import { spacingOf } from "./sizes.js";
 import { SurfacePicker } from "./surface3.js";
@@ -20,6 +21,8 @@ import { rgb } from "./theme.js";
 /** Where light comes from: right, up, towards the viewer. */
 const LIGHT = [-0.35, 0.5, 0.79];
 
+const NOTHING = { triangles: 0, singular: 0, lone: 0, points: 0, hidden: 0, balls: 0 };
+
 /** Draws a complex in space. */
 export class Scene3 {
   /**
@@ -33,23 +36,23 @@ export class Scene3 {
     this.surface = compile(gl, shaders.SURFACE_VERTEX, shaders.SURFACE_FRAGMENT);
     this.line = compile(gl, shaders.LINE_VERTEX, shaders.LINE_FRAGMENT);
     this.ball = compile(gl, shaders.BALL_VERTEX, shaders.BALL_FRAGMENT);
+    this.grown = compile(gl, shaders.GROWN_VERTEX, shaders.GROWN_FRAGMENT);
+    /** @type {WebGLTexture | null} */
+    this.sites = null;
     this.picker = new SurfacePicker(complex);
     this.pickedAt = "";
     /** What the last picture was made of. */
-    this.drawn = { triangles: 0, singular: 0, lone: 0, points: 0 };
+    this.drawn = { ...NOTHING };
     const place = { place: 0, size: 3, offset: 0 };
     this.triangles = vertexArray(gl, new Float32Array(0), 12, [place]);
     this.triangleBuffer = gl.getParameter(gl.ARRAY_BUFFER_BINDING);
     this.lines = vertexArray(gl, new Float32Array(0), 12, [place]);
     this.lineBuffer = gl.getParameter(gl.ARRAY_BUFFER_BINDING);
-    const records = new Uint32Array(4 * complex.vertexCount);
-    const floats = new Float32Array(records.buffer);
-    for (let v = 0; v < complex.vertexCount; v++) {
-      floats.set(complex.positions.subarray(3 * v, 3 * v + 3), 4 * v);
-      records[4 * v + 3] = complex.joined[v];
-    }
     const joined = { place: 1, size: 1, offset: 12, whole: true };
-    this.points = vertexArray(gl, records, 16, [place, joined]);
+    const { hidden } = complex;
+    const never = new Uint32Array(hidden.rows.length).fill(NEVER);
+    this.points = vertexArray(gl, fours(complex.positions, complex.joined), 16, [place, joined]);
+    this.hidden = vertexArray(gl, fours(hidden.positions, never), 16, [place, joined]);
   }
 
   /** Pick what is there, unless it is what was there the last time. @param {Facts} facts */
@@ -74,12 +77,12 @@ export class Scene3 {
     const { facts, layers, palette } = state;
     gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
     gl.clearColor(...rgb(palette.background), 1);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LESS);
     gl.disable(gl.BLEND);
     this.pick(facts);
-    this.drawn = { triangles: 0, singular: 0, lone: 0, points: 0 };
+    this.drawn = { ...NOTHING };
     // Lines and points lie on the surface: it is moved back by a hair.
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 1);
@@ -93,6 +96,8 @@ export class Scene3 {
       this.drawn.lone = picker.lone;
     }
     if (layers.points) this._drawPoints(state);
+    if (layers.hidden) this._drawHidden(state);
+    if (layers.balls && this.complex.reach(facts.radius) > 0) this._drawBalls(state);
     gl.bindVertexArray(null);
   }
 
@@ -112,11 +117,9 @@ export class Scene3 {
   _drawSurface(state) {
     const { gl, picker, surface } = this;
     const { camera, layers, palette, ratio } = state;
-    const [right, up, back] = camera.axes;
-    const light = [0, 1, 2].map((i) => LIGHT[0] * right[i] + LIGHT[1] * up[i] + LIGHT[2] * back[i]);
     this._use(surface, state);
-    gl.uniform3fv(surface.at.uLight, light);
-    gl.uniform3fv(surface.at.uBack, back);
+    gl.uniform3fv(surface.at.uLight, lightOf(camera));
+    gl.uniform3fv(surface.at.uBack, camera.axes[2]);
     gl.uniform3fv(surface.at.uInside, rgb(palette.inside));
     gl.uniform3fv(surface.at.uWire, rgb(palette.boundary));
     const apart = this.spacing * camera.pixelsAt(camera.distance);
@@ -141,20 +144,106 @@ export class Scene3 {
 
   /** @param {State} state */
   _drawPoints(state) {
-    const { gl, complex, ball } = this;
-    const { camera, palette, facts, ratio } = state;
-    this._use(ball, state);
+    const { gl, ball } = this;
+    const { camera, palette, facts } = state;
+    this._usePoints(state, [palette.points, palette.isolated]);
     gl.uniform1ui(ball.at.uEdges, facts.present[1]);
-    gl.uniform3fv(ball.at.uColours, [palette.points, palette.isolated].flatMap(rgb));
-    gl.uniform3fv(ball.at.uLightSeen, LIGHT);
-    const pixels = camera.pixelsAt(1) * ratio;
-    gl.uniform1f(ball.at.uPixels, pixels);
     const size = 0.22 * this.spacing;
     // Behind a cut, points inside would seem to stand in front of it.
     const seen = !state.cut && size * camera.pixelsAt(camera.distance) > 1.2;
     gl.uniform2f(ball.at.uSizes, seen ? size : 0, 1.4 * size);
     gl.bindVertexArray(this.points);
-    gl.drawArrays(gl.POINTS, 0, complex.vertexCount);
-    this.drawn.points = complex.vertexCount;
+    gl.drawArrays(gl.POINTS, 0, facts.present[0]);
+    this.drawn.points = facts.present[0];
   }
+
+  /** @param {State} state */
+  _drawHidden(state) {
+    const { gl, ball } = this;
+    this._usePoints(state, [state.palette.quiet, state.palette.quiet]);
+    gl.uniform1ui(ball.at.uEdges, 0);
+    gl.uniform2f(ball.at.uSizes, 0, 0.26 * this.spacing);
+    gl.bindVertexArray(this.hidden);
+    this.drawn.hidden = this.complex.hidden.rows.length;
+    gl.drawArrays(gl.POINTS, 0, this.drawn.hidden);
+  }
+
+  /**
+   * @param {State} state
+   * @param {string[]} colours of points with an edge, and without
+   */
+  _usePoints(state, colours) {
+    const { gl, ball } = this;
+    this._use(ball, state);
+    gl.uniform3fv(ball.at.uColours, colours.flatMap(rgb));
+    gl.uniform3fv(ball.at.uLightSeen, LIGHT);
+    gl.uniform1f(ball.at.uPixels, state.camera.pixelsAt(1) * state.ratio);
+  }
+
+  /**
+   * Draw the outside of the union of balls, as a glass through which the complex is seen:
+   * first how near it is, then its colour.
+   * @param {State} state
+   */
+  _drawBalls(state) {
+    const { gl, complex, grown } = this;
+    const { camera, palette, facts } = state;
+    this.sites ??= tableOf(gl, ballsOf(complex));
+    this._use(grown, state);
+    gl.bindTexture(gl.TEXTURE_2D, this.sites);
+    gl.uniform1f(grown.at.uPower, complex.power(facts.radius));
+    gl.uniform3fv(grown.at.uEye, camera.eye);
+    gl.uniform3fv(grown.at.uLight, lightOf(camera));
+    gl.uniform3fv(grown.at.uOutside, rgb(palette.circles));
+    gl.uniform3fv(grown.at.uInside, rgb(palette.union));
+    gl.uniform1f(grown.at.uOpacity, 0.5);
+    gl.bindVertexArray(null);
+    gl.colorMask(false, false, false, false);
+    gl.drawArrays(gl.TRIANGLES, 0, 6 * complex.vertexCount);
+    gl.colorMask(true, true, true, true);
+    gl.depthFunc(gl.LEQUAL);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    // Each pixel once: on a cut many balls are equally near.
+    gl.enable(gl.STENCIL_TEST);
+    gl.stencilFunc(gl.EQUAL, 0, 1);
+    gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
+    gl.drawArrays(gl.TRIANGLES, 0, 6 * complex.vertexCount);
+    gl.disable(gl.STENCIL_TEST);
+    gl.disable(gl.BLEND);
+    this.drawn.balls = complex.vertexCount;
+  }
+}
+
+/** Where light comes from in the picture. @param {Camera3} camera */
+function lightOf({ axes: [right, up, back] }) {
+  return [0, 1, 2].map((i) => LIGHT[0] * right[i] + LIGHT[1] * up[i] + LIGHT[2] * back[i]);
+}
+
+/**
+ * Put places and whole numbers side by side.
+ * @param {Float32Array} places
+ * @param {Uint32Array} column
+ */
+function fours(places, column) {
+  const records = new Uint32Array(4 * column.length);
+  const floats = new Float32Array(records.buffer);
+  for (let v = 0; v < column.length; v++) {
+    floats.set(places.subarray(3 * v, 3 * v + 3), 4 * v);
+    records[4 * v + 3] = column[v];
+  }
+  return records;
+}
+
+/**
+ * Return the place and the weight of each vertex.
+ * @param {SpaceComplex} complex
+ */
+function ballsOf({ positions, weights, vertexCount }) {
+  const balls = new Float32Array(4 * vertexCount);
+  for (let v = 0; v < vertexCount; v++) {
+    balls.set(positions.subarray(3 * v, 3 * v + 3), 4 * v);
+    balls[4 * v + 3] = weights ? weights[v] : 0;
+  }
+  return balls;
 }

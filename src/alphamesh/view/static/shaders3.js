@@ -2,7 +2,8 @@
 
 const CUT = `
 uniform vec4 uCut;
-void keep(vec3 p) { if (dot(uCut.xyz, p) > uCut.w) discard; }
+bool isCut(vec3 p) { return dot(uCut.xyz, p) > uCut.w; }
+void keep(vec3 p) { if (isCut(p)) discard; }
 `;
 
 export const SURFACE_VERTEX = `
@@ -81,6 +82,69 @@ void main() {
   float size = isolated ? uSizes.y : uSizes.x;
   gl_PointSize = max(uPixels * size / gl_Position.w, isolated ? 2.5 : 1.5);
   if (size == 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+}
+`;
+
+// A growing ball is a square that faces the eye; each of its pixels finds the ball itself.
+export const GROWN_VERTEX = `
+uniform highp sampler2D uSites; // places and weights
+uniform float uPower;
+uniform mat4 uMatrix;
+uniform vec3 uEye;
+out vec3 vOffset;
+flat out vec4 vBall;
+void main() {
+  int site = gl_VertexID / 6;
+  int corner = gl_VertexID % 6;
+  vec4 ball = texelFetch(uSites, ivec2(site % 2048, site / 2048), 0);
+  vBall = vec4(ball.xyz, sqrt(max(0.0, ball.w + uPower)));
+  vec3 towards = uEye - vBall.xyz;
+  float away = length(towards);
+  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if (vBall.w == 0.0 || away <= 1.001 * vBall.w) return;
+  towards /= away;
+  vec3 right = normalize(cross(abs(towards.z) < 0.9 ? vec3(0, 0, 1) : vec3(1, 0, 0), towards));
+  vec3 up = cross(towards, right);
+  // What is seen of a ball from near by is wider than the ball.
+  float reach = vBall.w * away / sqrt(away * away - vBall.w * vBall.w);
+  float x = corner == 1 || corner == 2 || corner == 4 ? 1.0 : -1.0;
+  float y = corner == 2 || corner == 4 || corner == 5 ? 1.0 : -1.0;
+  vOffset = reach * (x * right + y * up);
+  gl_Position = uMatrix * vec4(vBall.xyz + vOffset, 1.0);
+}
+`;
+
+export const GROWN_FRAGMENT = `${CUT}
+uniform mat4 uMatrix;
+uniform vec3 uEye;
+uniform vec3 uLight;
+uniform vec3 uOutside;
+uniform vec3 uInside;
+uniform float uOpacity;
+in vec3 vOffset;
+flat in vec4 vBall;
+out vec4 colour;
+void main() {
+  vec3 way = normalize(vBall.xyz + vOffset - uEye);
+  // Where the ray is nearest to the middle of the ball, seen from there.
+  vec3 nearest = vOffset - dot(vOffset, way) * way;
+  float half_square = vBall.w * vBall.w - dot(nearest, nearest);
+  if (half_square < 0.0) discard;
+  vec3 back = sqrt(half_square) * way;
+  vec3 normal = (nearest - back) / vBall.w;
+  vec3 place = vBall.xyz + nearest - back;
+  float shade = 0.5 + 0.5 * max(dot(normal, uLight), 0.0);
+  vec3 base = uOutside * shade;
+  if (isCut(place)) {
+    // Where the ray enters what is left of the ball: on the cut.
+    float further = (uCut.w - dot(uCut.xyz, place)) / dot(uCut.xyz, way);
+    if (further < 0.0 || further > 2.0 * length(back)) discard;
+    place += further * way;
+    base = uInside;
+  }
+  vec4 seen = uMatrix * vec4(place, 1.0);
+  gl_FragDepth = 0.5 * seen.z / seen.w + 0.5;
+  colour = vec4(base, uOpacity);
 }
 `;
 

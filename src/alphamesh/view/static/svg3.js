@@ -8,10 +8,11 @@ import { rgb } from "./theme.js";
  * @param {import("./surface3.js").SurfacePicker} picker
  * @param {import("./camera3.js").Camera3} camera
  * @param {(place: ArrayLike<number>) => boolean} kept what the cut leaves
- * @param {{layers: Record<string, boolean>, palette: any, title: string}} state
+ * @param {{layers: Record<string, boolean>, palette: any, title: string,
+ *          balls: {place: Float32Array, radius: number}[]}} state
  * @returns {string}
  */
-export function svgOfSurface(picker, camera, kept, { layers, palette, title }) {
+export function svgOfSurface(picker, camera, kept, { layers, palette, title, balls }) {
   const back = camera.axes[2];
   /** @type {{away: number, text: string}[]} */
   const shapes = [];
@@ -38,6 +39,14 @@ export function svgOfSurface(picker, camera, kept, { layers, palette, title }) {
     const path = ends.map((p) => camera.toScreen(p).map(short).join(" ")).join("L");
     const text = `<path d="M${path}" stroke="${palette.isolated}" fill="none"/>`;
     shapes.push({ away: -dot(back, ends[0]), text });
+  }
+  for (const { place, radius } of balls) {
+    if (radius === 0 || !kept(place)) continue;
+    const [x, y] = camera.toScreen(place).map(short);
+    const wide = short(radius * camera.pixelsAt(camera.seen(place)[2]));
+    const look = `fill="${palette.circles}" fill-opacity="0.35" stroke="${palette.arcs}"`;
+    const text = `<circle cx="${x}" cy="${y}" r="${wide}" ${look} stroke-width="0.4"/>`;
+    shapes.push({ away: -dot(back, place), text });
   }
   shapes.sort((a, b) => b.away - a.away);
   const [width, height] = [short(camera.width), short(camera.height)];
