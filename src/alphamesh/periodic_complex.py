@@ -16,6 +16,7 @@ from alphamesh.periodic import (
     periodic_persistence,
     tiled_points,
 )
+from alphamesh.shown import Shown
 
 if TYPE_CHECKING:
     import os
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["PeriodicComplex", "periodic_complex"]
 
 
-class PeriodicComplex(Exports):
+class PeriodicComplex(Exports, Shown):
     """The alpha complex of a periodic box; what ``AlphaComplex(points, periods=...)`` returns.
 
     Notes

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { Camera } from "../../src/alphamesh/view/static/camera.js";
-import { colouring } from "../../src/alphamesh/view/static/cells.js";
+import { colouring } from "../../src/alphamesh/view/static/colours.js";
 import { cofaceRanks, countUpTo, countsBelow, NEVER } from "../../src/alphamesh/view/static/complex.js";
 import { bytesOfBase64, unpack } from "../../src/alphamesh/view/static/data.js";
 import { readHash, writeHash } from "../../src/alphamesh/view/static/hash.js";

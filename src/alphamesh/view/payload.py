@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,12 +9,15 @@ import numpy as np
 from alphamesh.betti import checked_radii
 from alphamesh.delaunay3d import outward_triangles
 from alphamesh.errors import ParameterError
+from alphamesh.filtration import Filtration
 from alphamesh.filtration3d import Filtration3D
+from alphamesh.periodic import PeriodicFiltration
+from alphamesh.view.boxes import box_arrays, box_facts
 from alphamesh.view.packing import pack, rising_bits, signed_bits
+from alphamesh.view.placing import BoxOrFree, Frame, Order, places_of
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import FloatArray, IntArray
-    from alphamesh.filtration import AnyFiltration
+    from alphamesh._arrays import IntArray
     from alphamesh.persistence import Persistence
     from alphamesh.radius import RadiusChoice
 
@@ -24,23 +26,6 @@ __all__ = ["first_radius", "payload"]
 _TITLE = "Alpha complex"
 _NAMES = ("vertex", "edge", "triangle", "tetrahedron")
 _NONE = np.iinfo(np.uint32).max
-# Balls beyond the outermost points are shown as far as this share of half the cloud.
-_MOST_OVERHANG = 0.4
-
-
-@dataclass(frozen=True, slots=True)
-class _Order:
-    """Simplices by filtration value: which comes when, and when comes which."""
-
-    order: np.ndarray[Any, np.dtype[np.intp]]
-    rank: np.ndarray[Any, np.dtype[np.uint32]]
-
-    @classmethod
-    def of(cls, radii: FloatArray) -> _Order:
-        order = np.argsort(radii, kind="stable")
-        rank = np.empty(len(order), dtype=np.uint32)
-        rank[order] = np.arange(len(order), dtype=np.uint32)
-        return cls(order, rank)
 
 
 def payload(
@@ -69,10 +54,10 @@ def payload(
     """
     if title is not None and not isinstance(title, str):
         raise ParameterError(f"title must be text; got {title!r}")
-    filtration = persistence.filtration
-    orders = [_Order.of(radii) for radii in filtration.radii]
+    filtration: BoxOrFree = persistence.filtration
+    orders = [Order.of(radii) for radii in filtration.radii]
     rows = filtration.simplices[0][:, 0].take(orders[0].order)
-    frame = _Frame.of(filtration, rows)
+    frame = Frame.of(filtration, rows)
     meta = {
         "title": title or _TITLE,
         "ambient": filtration.points.shape[1],
@@ -80,46 +65,22 @@ def payload(
         "centre": frame.centre.tolist(),
         "scale": frame.scale,
         "extent": frame.extent.tolist(),
+        "box": box_facts(filtration, frame)
+        if isinstance(filtration, PeriodicFiltration)
+        else None,
         "radius": first_radius(filtration, choice, radius),
         "choice": None if choice is None else _choice(choice),
     }
     arrays = {
-        "positions": frame.placed(filtration.points, rows),
-        **_arrays(persistence, orders, rows),
+        "positions": frame.placed(places_of(filtration).take(rows, axis=0)),
+        **_arrays(persistence, orders, rows, frame),
         **_balls(filtration, frame, rows),
     }
     return pack(meta, arrays)
 
 
-@dataclass(frozen=True, slots=True)
-class _Frame:
-    """What moves and scales points into a square, or a cube, from -1 to 1."""
-
-    centre: FloatArray
-    scale: float
-    extent: FloatArray
-
-    @classmethod
-    def of(cls, filtration: AnyFiltration, rows: IntArray) -> _Frame:
-        points = filtration.points.take(rows, axis=0)
-        if len(points) == 0:
-            low = high = np.zeros(points.shape[1])
-        else:
-            low, high = points.min(axis=0), points.max(axis=0)
-        centre, half = low / 2 + high / 2, high / 2 - low / 2
-        ball = 0.0
-        if filtration.weights is not None:
-            ball = float(np.sqrt(filtration.weights.take(rows).max(initial=0.0)))
-        scale = float(half.max()) or ball or 1.0
-        return cls(centre, scale, half / scale + min(ball / scale, _MOST_OVERHANG))
-
-    def placed(self, points: FloatArray, rows: IntArray) -> np.ndarray[Any, Any]:
-        places = (points.take(rows, axis=0) - self.centre) / self.scale
-        return places.astype(np.float32).ravel()
-
-
 def _balls(
-    filtration: AnyFiltration, frame: _Frame, rows: IntArray
+    filtration: BoxOrFree, frame: Frame, rows: IntArray
 ) -> dict[str, np.ndarray[Any, Any]]:
     """Return the weights of vertices, and the points that are hidden."""
     if filtration.weights is None:
@@ -129,25 +90,26 @@ def _balls(
     arrays = {"weights": np.clip(weights, -limit, limit).astype(np.float32)}
     if len(filtration.hidden):
         arrays["hidden"] = filtration.hidden.astype(np.uint32)
-        arrays["hidden_positions"] = frame.placed(filtration.points, filtration.hidden)
+        places = places_of(filtration).take(filtration.hidden, axis=0)
+        arrays["hidden_positions"] = frame.placed(places)
     return arrays
 
 
 def _arrays(
-    persistence: Persistence, orders: list[_Order], rows: IntArray
+    persistence: Persistence, orders: list[Order], rows: IntArray, frame: Frame
 ) -> dict[str, np.ndarray[Any, Any]]:
     """Return the simplices, each told by its facets; corners follow from edges.
 
-    Vertices are numbered in the order in which they come.
+    Vertices are numbered in the order in which they come. In a box corners are told, too.
     """
-    filtration = persistence.filtration
-    signed = filtration.weights is not None
+    filtration: BoxOrFree = persistence.filtration
+    signed, boxed = filtration.weights is not None, isinstance(filtration, PeriodicFiltration)
     vertices = np.empty(len(filtration.points), dtype=np.uint32)
     vertices[rows] = np.arange(len(rows), dtype=np.uint32)
     edges = filtration.simplices[1].take(orders[1].order, axis=0)
     arrays: dict[str, np.ndarray[Any, Any]] = {"edges": vertices.take(edges).ravel()}
     facets = {2: filtration.triangle_edges}
-    if isinstance(filtration, Filtration3D):
+    if not isinstance(filtration, Filtration) and len(orders) == 4:
         facets[3] = filtration.tetrahedron_triangles
     bits = signed_bits if signed else rising_bits
     for k, name in enumerate(_NAMES[: len(orders)]):
@@ -155,12 +117,14 @@ def _arrays(
         if k in facets:
             faces = facets[k].take(orders[k].order, axis=0)
             arrays[f"{name}_facets"] = orders[k - 1].rank.take(faces).ravel()
-        if k in facets or (k == 1 and signed):
+        if k in facets or (k == 1 and (signed or boxed)):
             arrays[f"{name}_creators"] = _creators(
                 persistence.pairs[k - 1], *orders[k - 1 : k + 1]
             )
     if isinstance(filtration, Filtration3D):
         arrays["triangle_turned"] = _turned(filtration, orders[3].rank)[orders[2].order]
+    if isinstance(filtration, PeriodicFiltration):
+        arrays |= box_arrays(filtration, orders, frame, vertices)
     if not signed:
         del arrays["vertex_values"]  # all of them come at 0
     if not np.array_equal(rows, np.arange(len(filtration.points))):
@@ -168,7 +132,7 @@ def _arrays(
     return arrays
 
 
-def _creators(pairs: IntArray, below: _Order, here: _Order) -> np.ndarray[Any, Any]:
+def _creators(pairs: IntArray, below: Order, here: Order) -> np.ndarray[Any, Any]:
     """Return which simplex began the class that each simplex ends."""
     creators = np.full(len(here.rank), _NONE, dtype=np.uint32)
     creators[here.rank.take(pairs[:, 1])] = below.rank.take(pairs[:, 0])
@@ -193,7 +157,7 @@ def _turned(
 
 
 def first_radius(
-    filtration: AnyFiltration, choice: RadiusChoice | None, radius: float | None
+    filtration: BoxOrFree, choice: RadiusChoice | None, radius: float | None
 ) -> float:
     """Return the radius that is shown first: finite, whatever is given."""
     if radius is None:

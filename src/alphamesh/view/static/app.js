@@ -64,7 +64,7 @@ export class View {
       signed: this.complex.signed,
     });
     this.panel = new Panel(this.picture.layers, this.charts, {
-      ambient: this.complex.ambient,
+      words: this.complex.words,
       reason: choice?.reason ?? null,
       toggle: (key) => this.toggle(key),
     });

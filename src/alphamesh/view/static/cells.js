@@ -15,11 +15,11 @@ export const PIECE = 12;
 export const WEIGHTED_PIECE = 16;
 
 /**
- * @typedef {import("./plane.js").PlaneComplex} PlaneComplex
+ * @typedef {import("./plane.js").PlaneComplex | import("./patch.js").Patch} Cells
  * @typedef {[number, number]} Place
  */
 
-/** How many numbers a piece has. @param {PlaneComplex} complex */
+/** How many numbers a piece has. @param {Cells} complex */
 export function pieceSize(complex) {
   return complex.weights ? WEIGHTED_PIECE : PIECE;
 }
@@ -43,57 +43,20 @@ export function centreAlong(px, py, weight, nx, ny, power, far) {
   return { along: Math.max(-far, Math.min(far, along)), side };
 }
 
-/**
- * Return one of seven numbers for each vertex, different for neighbours where possible.
- * @param {Uint32Array} edges
- * @param {number} vertices
- * @param {number} colours
- * @returns {Uint8Array}
- */
-export function colouring(edges, vertices, colours) {
-  const start = new Uint32Array(vertices + 1);
-  for (const vertex of edges) start[vertex + 1]++;
-  for (let v = 0; v < vertices; v++) start[v + 1] += start[v];
-  const fill = start.slice(0, vertices);
-  const neighbours = new Uint32Array(edges.length);
-  for (let i = 0; i < edges.length; i += 2) {
-    neighbours[fill[edges[i]]++] = edges[i + 1];
-    neighbours[fill[edges[i + 1]]++] = edges[i];
-  }
-  const found = new Uint8Array(vertices).fill(255);
-  const used = new Uint32Array(colours).fill(NEVER);
-  for (let v = 0; v < vertices; v++) {
-    for (let i = start[v]; i < start[v + 1]; i++) {
-      if (found[neighbours[i]] !== 255) used[found[neighbours[i]]] = v;
-    }
-    // Begin at a place that depends on the vertex, so that all colours are used alike.
-    const first = Math.imul(v, 2654435761) >>> 16;
-    found[v] = first % colours;
-    for (let k = 0; k < colours; k++) {
-      const colour = (first + k) % colours;
-      if (used[colour] !== v) {
-        found[v] = colour;
-        break;
-      }
-    }
-  }
-  return found;
-}
-
 /** Collects pieces in one array of floats. */
 class Pieces {
   /**
-   * @param {PlaneComplex} complex
+   * @param {Cells} complex
    * @param {number} colours
    */
   constructor(complex, colours) {
     this.size = pieceSize(complex);
     this.weights = complex.weights;
-    this.colours = colouring(complex.edges, complex.vertexCount, colours);
+    this.colours = complex.coloured(colours);
     this.numbers = new Float32Array(this.size << 8);
     this.length = 0;
     /** Sums of places in each cell, and how many there are. */
-    this.inside = new Float64Array(this.weights ? 3 * complex.vertexCount : 0);
+    this.inside = new Float64Array(this.weights ? (3 * complex.positions.length) / 2 : 0);
     /** @type {number[]} both ends of each piece */
     this.ends = [];
   }
@@ -161,7 +124,7 @@ class Pieces {
 
 /**
  * Return the pieces of all cells, `pieceSize` floats each.
- * @param {PlaneComplex} complex
+ * @param {Cells} complex
  * @param {number} far no disc reaches so far
  * @param {number} [colours]
  * @returns {Float32Array}
@@ -172,14 +135,16 @@ export function cellPieces(complex, far, colours = 7) {
   const out = new Map();
   /** @type {[number, number, Place][]} */
   const into = [];
-  for (let e = 0; e < complex.edgeCount; e++) addRidge(complex, e, far, pieces, out, into);
+  for (let e = 0; e < complex.edgeCount; e++) {
+    if (complex.isWhole(e)) addRidge(complex, e, far, pieces, out, into);
+  }
   addSectors(complex, far, pieces, out, into);
   return pieces.finish(complex.positions);
 }
 
 /**
  * Add the piece of an edge; note where unbounded cells end.
- * @param {PlaneComplex} complex
+ * @param {Cells} complex
  * @param {number} e
  * @param {number} far
  * @param {Pieces} pieces
@@ -187,7 +152,7 @@ export function cellPieces(complex, far, colours = 7) {
  * @param {[number, number, Place][]} into
  */
 function addRidge(complex, e, far, pieces, out, into) {
-  const { positions: p, edges, triangles, cofaces, weights } = complex;
+  const { positions: p, edges, triangles, around, weights } = complex;
   const [u, v] = [edges[2 * e], edges[2 * e + 1]];
   const [ux, uy, vx, vy] = [p[2 * u], p[2 * u + 1], p[2 * v], p[2 * v + 1]];
   const length = Math.hypot(vx - ux, vy - uy);
@@ -201,7 +166,7 @@ function addRidge(complex, e, far, pieces, out, into) {
   /** @type {number[]} */
   const ends = [];
   let open = 0;
-  for (const t of [cofaces.first[e], cofaces.last[e]]) {
+  for (const t of [around.first[e], around.last[e]]) {
     if (t === NEVER) continue;
     const w = triangles[3 * t] + triangles[3 * t + 1] + triangles[3 * t + 2] - u - v;
     const weight = weights ? weights[w] : 0;
@@ -230,7 +195,7 @@ function addRidge(complex, e, far, pieces, out, into) {
 
 /**
  * Add what unbounded cells have between their two rays.
- * @param {PlaneComplex} complex
+ * @param {Cells} complex
  * @param {number} far
  * @param {Pieces} pieces
  * @param {Map<number, Place>} out
@@ -255,7 +220,7 @@ function addSectors(complex, far, pieces, out, into) {
 
 /**
  * Add the sector counter-clockwise from one far place to another.
- * @param {PlaneComplex} complex
+ * @param {Cells} complex
  * @param {number} v
  * @param {Place} from
  * @param {Place} to

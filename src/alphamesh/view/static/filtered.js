@@ -1,12 +1,14 @@
 // What is the same in the plane and in space: values, classes, and counts at a radius.
 
-import { countUpTo, diagramOf, joiners, NEVER, sumsBefore } from "./complex.js";
+import { colouring } from "./colours.js";
+import { countUpTo, diagramOf, firstEdges, joiners, NEVER, sumsBefore } from "./complex.js";
 
 /**
  * What is in the complex at a radius.
  * @typedef {object} Facts
  * @property {number} radius
  * @property {number[]} present simplices of each dimension
+ * @property {number[]} shown how many of them are drawn: in a periodic box copies, too
  * @property {number[]} betti
  * @property {number} isolated vertices without an edge
  * @property {number} singularEdges
@@ -15,6 +17,12 @@ import { countUpTo, diagramOf, joiners, NEVER, sumsBefore } from "./complex.js";
  * @property {number} interior facets inside
  * @property {number} size area, or volume
  * @property {number} border perimeter, or area of the surface
+ * @property {boolean} full whether a periodic box is full
+ */
+
+/**
+ * A periodic box, in units of the picture.
+ * @typedef {{periods: (number | null)[], low: number[], high: number[]}} Box
  */
 
 const NAMES = ["vertex", "edge", "triangle", "tetrahedron"];
@@ -39,6 +47,14 @@ export class FilteredComplex {
     /** Squared radii of the balls at radius 0, in squared units of the picture. */
     this.weights = /** @type {Float32Array | undefined} */ (arrays.weights);
     this.heaviest = this.weights ? this.weights.reduce((a, b) => Math.max(a, b), -Infinity) : 0;
+    /** @type {Box | null} */
+    this.box = meta.box ?? null;
+    /** How many periods corners but the first lie from the box, by one larger. */
+    this.offsets = {
+      edges: /** @type {Uint8Array} */ (arrays.edge_offsets),
+      triangles: /** @type {Uint8Array} */ (arrays.triangle_offsets),
+    };
+    this.joined = firstEdges(this.edges, this.vertexCount);
     this.hidden = {
       rows: /** @type {Uint32Array} */ (arrays.hidden ?? new Uint32Array(0)),
       positions: /** @type {Float32Array} */ (arrays.hidden_positions ?? new Float32Array(0)),
@@ -56,6 +72,76 @@ export class FilteredComplex {
       .map((_, k) => diagramOf(this.values[k], this.values[k + 1], enders[k + 1], enders[k]));
     /** How many of the first simplices of each dimension end a class. */
     this._ended = enders.map((own) => own && sumsBefore(own.map((c) => (c === NEVER ? 0 : 1))));
+  }
+
+  // What an ambient dimension knows of its own
+
+  /** Corners of triangles. @type {Uint32Array} */
+  triangles = new Uint32Array(0);
+  /** Ranks of the cofaces of each facet. @type {{first: Uint32Array, last: Uint32Array}} */
+  cofaces = { first: new Uint32Array(0), last: new Uint32Array(0) };
+  /** The rank of the first triangle of each edge. @type {Uint32Array} */
+  covered = new Uint32Array(0);
+  /** What is drawn around a periodic box. @type {import("./patch.js").Patch | null} */
+  patch = null;
+
+  /** Whether all around an edge is known. @param {number} _e */
+  isWhole(_e) {
+    return true;
+  }
+
+  /** Numbers of the cofaces of each facet. */
+  get around() {
+    return this.cofaces;
+  }
+
+  /** Return what is drawn at radii. @param {number[]} present */
+  shown(present) {
+    return this.patch ? this.patch.shown(present) : present;
+  }
+
+  /** Whether the classes of a full box are there. @param {number[]} present */
+  isFull(present) {
+    const [cells, ended] = [present[this.ambient], this._ended[this.ambient]];
+    return this.box !== null && cells > ended[cells];
+  }
+
+  /** Return a colour for each vertex. @param {number} colours */
+  coloured(colours) {
+    return colouring(this.edges, this.vertexCount, colours);
+  }
+
+  /**
+   * @param {number} e
+   * @returns {number} in units of the picture
+   */
+  edgeLength(e) {
+    const [d, p] = [this.ambient, this.positions];
+    const [a, b] = [d * this.edges[2 * e], d * this.edges[2 * e + 1]];
+    let sum = 0;
+    for (let k = 0; k < d; k++) {
+      const side = this.box?.periods[k];
+      const moved = side ? (this.offsets.edges[d * e + k] - 1) * side : 0;
+      sum += (p[b + k] + moved - p[a + k]) ** 2;
+    }
+    return Math.sqrt(sum);
+  }
+
+  /**
+   * Return how the border changes when each cell comes.
+   * @param {Uint32Array} faces of one cell after the other
+   * @param {ArrayLike<number>} sizes of the faces
+   */
+  borders(faces, sizes) {
+    const each = this.ambient + 1;
+    const changes = new Float64Array(faces.length / each);
+    const entered = new Uint8Array(sizes.length);
+    for (let i = 0; i < faces.length; i++) {
+      const size = sizes[faces[i]];
+      changes[Math.floor(i / each)] += entered[faces[i]] ? -size : size;
+      entered[faces[i]] = 1;
+    }
+    return changes;
   }
 
   /** The radius at which the first vertex comes. */
@@ -90,6 +176,20 @@ export class FilteredComplex {
   reach(radius) {
     if (!this.weights) return radius / this.meta.scale;
     return Math.sqrt(Math.max(0, this.heaviest + this.power(radius)));
+  }
+
+  /** What classes are called, by dimension. */
+  get words() {
+    const hole = this.box ? "loop" : this.ambient === 2 ? "hole" : "tunnel";
+    return ["component", hole, "void"].slice(0, this.ambient);
+  }
+
+  /**
+   * Return the row of the cloud that something drawn as a vertex is.
+   * @param {number} drawn
+   */
+  rowOfDrawn(drawn) {
+    return this.rowOf(this.patch ? this.patch.owner[drawn] : drawn);
   }
 
   /**

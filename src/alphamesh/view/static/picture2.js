@@ -1,10 +1,11 @@
 // The picture in the plane: what is drawn, how it moves, what is under the pointer.
 
 import { Camera } from "./camera.js";
-import { Picker } from "./pick.js";
+import { PatchPicker, Picker } from "./pick.js";
 import { Scene2 } from "./scene2.js";
 import { svgOf } from "./svg.js";
 import { count, counted, number } from "./text.js";
+import { VEIL, veilOf } from "./veil.js";
 
 /**
  * @typedef {{key: string, letter: string, name: string, on: boolean}} Layer
@@ -24,7 +25,7 @@ export class Picture2 {
     this.complex = complex;
     this.limit = limit;
     this.camera = new Camera(complex.meta.extent);
-    this.picker = new Picker(complex);
+    this.picker = complex.box ? new PatchPicker(complex) : new Picker(complex);
     /** @type {Scene2 | null} */
     this.scene = null;
     const few = complex.vertexCount <= 3000;
@@ -97,7 +98,7 @@ export class Picture2 {
     if (hidden >= 0) return { simplex: null, lines: [`hidden point ${hidden}`, HIDDEN] };
     const simplex = this.picker.at(x, y, 5 / this.camera.scale);
     if (!simplex) return null;
-    const rows = simplex.corners.map((v) => this.complex.rowOf(v)).join(", ");
+    const rows = simplex.corners.map((v) => this.complex.rowOfDrawn(v)).join(", ");
     const what = `${NAMES[simplex.dimension]} ${rows}`;
     const since = `from radius ${number(simplex.value, 6)}`;
     const there = simplex.dimension ? "in" : "there";
@@ -110,6 +111,7 @@ export class Picture2 {
    * @param {{palette: any, hovered: import("./pick.js").Simplex | null}} state
    */
   drawOver(c, { palette, hovered }) {
+    if (this.complex.box) this._drawBox(c, this.complex.box, palette);
     if (hovered) this._drawSimplex(c, hovered, palette);
     this._drawScale(c, palette);
   }
@@ -120,7 +122,7 @@ export class Picture2 {
    * @param {any} palette
    */
   _drawSimplex(c, simplex, palette) {
-    const p = this.complex.positions;
+    const p = this.complex.seen.positions;
     const places = simplex.corners.map((v) => this.camera.toScreen(p[2 * v], p[2 * v + 1]));
     c.strokeStyle = palette.radius;
     c.fillStyle = palette.radius;
@@ -137,6 +139,23 @@ export class Picture2 {
       c.arc(x, y, 4, 0, 7);
       c.fill();
     }
+  }
+
+  /**
+   * @param {CanvasRenderingContext2D} c
+   * @param {import("./filtered.js").Box} box
+   * @param {any} palette
+   */
+  _drawBox(c, box, palette) {
+    const { veil, rest, frame } = veilOf(box, this.camera);
+    c.fillStyle = palette.background;
+    c.globalAlpha = VEIL;
+    c.fill(new Path2D(veil), "evenodd");
+    c.globalAlpha = 1;
+    c.fill(new Path2D(rest), "evenodd");
+    c.strokeStyle = palette.text;
+    c.lineWidth = 1.2;
+    c.stroke(new Path2D(frame));
   }
 
   /**
@@ -186,10 +205,10 @@ export class Picture2 {
 
   /** @param {Facts} facts */
   sentence(facts) {
-    const [components, holes] = facts.betti;
+    const classes = facts.betti.map((value, k) => counted(value, this.complex.words[k]));
     return [
-      `radius ${number(facts.radius)}: ${counted(components, "component")}`,
-      counted(holes, "hole"),
+      `radius ${number(facts.radius)}: ${classes.join(", ")}`,
+      ...(facts.full ? ["the whole box"] : []),
       counted(facts.present[2], "triangle"),
       counted(facts.isolated, "isolated point"),
     ].join(", ");

@@ -205,11 +205,10 @@ export class Picture3 {
 
   /** @param {Facts} facts */
   sentence(facts) {
-    const [components, tunnels, voids] = facts.betti;
+    const classes = facts.betti.map((value, k) => counted(value, this.complex.words[k]));
     return [
-      `radius ${number(facts.radius)}: ${counted(components, "component")}`,
-      counted(tunnels, "tunnel"),
-      counted(voids, "void"),
+      `radius ${number(facts.radius)}: ${classes.join(", ")}`,
+      ...(facts.full ? ["the whole box"] : []),
       counted(facts.present[3], "tetrahedron", "tetrahedra"),
       counted(facts.isolated, "isolated point"),
     ].join(", ");

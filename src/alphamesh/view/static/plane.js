@@ -1,7 +1,8 @@
 // A filtration in the plane, and the facts at a radius.
 
-import { cofaceRanks, cornersOf, countsBelow, firstEdges, sumsBefore } from "./complex.js";
+import { cofaceRanks, cornersOf, countsBelow, sumsBefore } from "./complex.js";
 import { FilteredComplex } from "./filtered.js";
+import { Patch } from "./patch.js";
 
 /** @typedef {import("./filtered.js").Facts} Facts */
 
@@ -13,20 +14,30 @@ export class PlaneComplex extends FilteredComplex {
     const { arrays } = payload;
     this.triangleEdges = /** @type {Uint32Array} */ (arrays.triangle_facets);
     this.triangleCount = this.triangleEdges.length / 3;
-    this.triangles = cornersOf(this.edges, this.triangleEdges);
+    const told = /** @type {Uint32Array | undefined} */ (arrays.triangle_corners);
+    this.triangles = told ?? cornersOf(this.edges, this.triangleEdges);
     /** Ranks of the cofaces of each edge. */
     this.cofaces = cofaceRanks(this.triangleEdges, 3, this.edgeCount);
-    this.joined = firstEdges(this.edges, this.vertexCount);
+    this.covered = this.cofaces.first;
 
     this._verticesJoined = countsBelow(this.joined, this.edgeCount);
     this._edgesEntered = countsBelow(this.cofaces.first, this.triangleCount);
     this._edgesLeft = countsBelow(this.cofaces.last, this.triangleCount);
-    const { areas, lengths } = this._measure();
-    this._areas = sumsBefore(areas);
-    this._lengths = sumsBefore(lengths);
+    const areas = /** @type {Float32Array | undefined} */ (arrays.cell_sizes);
+    this._areas = sumsBefore(areas ?? this._measure());
+    const lengths = Float64Array.from({ length: this.edgeCount }, (_, e) => this.edgeLength(e));
+    this._lengths = sumsBefore(this.borders(this.triangleEdges, lengths));
+    // Of few points discs are drawn, which reach farther.
+    /** @type {Patch | null} */
+    this.patch = this.box ? new Patch(this, this.vertexCount <= 3000 ? 0.5 : 0.2) : null;
   }
 
-  /** Return how the area and the length of the border change with each triangle. */
+  /** What is drawn. @returns {PlaneComplex | Patch} */
+  get seen() {
+    return this.patch ?? this;
+  }
+
+  /** Return the area of each triangle. */
   _measure() {
     const areas = new Float64Array(this.triangleCount);
     const p = this.positions;
@@ -38,25 +49,7 @@ export class PlaneComplex extends FilteredComplex {
         (p[b] - p[a]) * (p[c + 1] - p[a + 1]) - (p[c] - p[a]) * (p[b + 1] - p[a + 1]);
       areas[t] = Math.abs(cross) / 2;
     }
-    // How the length of the border changes when a triangle comes.
-    const lengths = new Float64Array(this.triangleCount);
-    for (let i = 0; i < this.triangleEdges.length; i++) {
-      const e = this.triangleEdges[i];
-      const t = Math.floor(i / 3);
-      const length = this.edgeLength(e);
-      lengths[t] += this.cofaces.first[e] === t ? length : -length;
-    }
-    return { areas, lengths };
-  }
-
-  /**
-   * @param {number} e
-   * @returns {number} in units of the picture
-   */
-  edgeLength(e) {
-    const [a, b] = [2 * this.edges[2 * e], 2 * this.edges[2 * e + 1]];
-    const p = this.positions;
-    return Math.hypot(p[b] - p[a], p[b + 1] - p[a + 1]);
+    return areas;
   }
 
   /**
@@ -74,6 +67,7 @@ export class PlaneComplex extends FilteredComplex {
     return {
       radius,
       present,
+      shown: this.shown(present),
       betti: this.betti(present),
       isolated: vertices - this._verticesJoined[edges],
       singularEdges: edges - entered,
@@ -81,6 +75,7 @@ export class PlaneComplex extends FilteredComplex {
       interior,
       size: this._areas[triangles] * scale * scale,
       border: boundary ? this._lengths[triangles] * scale : 0,
+      full: this.isFull(present),
     };
   }
 }

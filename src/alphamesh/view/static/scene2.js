@@ -15,6 +15,7 @@ import { rgb } from "./theme.js";
  * @typedef {import("./filtered.js").Facts} Facts
  * @typedef {import("./camera.js").Camera} Camera
  * @typedef {Record<string, boolean>} Layers
+ * @typedef {PlaneComplex | import("./patch.js").Patch} Seen
  */
 
 /** More circles than that are a grey mass. */
@@ -38,6 +39,8 @@ export class Scene2 {
   constructor(gl, complex, reach) {
     this.gl = gl;
     this.complex = complex;
+    /** What is drawn: in a box copies, too. */
+    this.seen = complex.seen;
     this.far = Math.max(64, 8 * reach);
     /** What the last picture was made of. */
     this.drawn = { ...NOTHING };
@@ -47,12 +50,12 @@ export class Scene2 {
     this.dot = compile(gl, shaders.POINT_VERTEX, shaders.POINT_FRAGMENT);
     this.cell = compile(gl, shaders.CELL_VERTEX, shaders.CELL_FRAGMENT);
     this.circle = compile(gl, shaders.CIRCLE_VERTEX, shaders.EDGE_FRAGMENT);
-    this.points = vertexArray(gl, interleaved(complex.positions, [complex.joined]), 12, POINT);
-    this.triangles = vertexArray(gl, complex.positions, 8, [POINT[0]]);
+    this.points = vertexArray(gl, interleaved(this.seen.positions, [this.seen.joined]), 12, POINT);
+    this.triangles = vertexArray(gl, this.seen.positions, 8, [POINT[0]]);
     gl.bindVertexArray(this.triangles);
-    bufferOf(gl, gl.ELEMENT_ARRAY_BUFFER, complex.triangles);
+    bufferOf(gl, gl.ELEMENT_ARRAY_BUFFER, this.seen.triangles);
     gl.bindVertexArray(null);
-    this.edges = vertexArray(gl, endsOf(complex), 12, POINT);
+    this.edges = vertexArray(gl, endsOf(this.seen), 12, POINT);
     const record = [
       { place: 0, size: 2, offset: 0 },
       { place: 1, size: 2, offset: 8 },
@@ -71,7 +74,7 @@ export class Scene2 {
     this.cells = null;
     /** Only where edges are not smooth: there it is exact, and needed most. */
     this.cache = gl.getContextAttributes()?.antialias ? null : new FillCache(gl);
-    this.picker = new EdgePicker(complex);
+    this.picker = new EdgePicker(this.seen);
     /** @type {WebGLVertexArrayObject | null} */
     this.hidden = null;
     /** @type {{singular: number, boundary: number}} */
@@ -134,8 +137,8 @@ export class Scene2 {
   _drawCells(view, { power }, layers, palette) {
     const { gl } = this;
     if (!this.cells) {
-      const pieces = cellPieces(this.complex, this.far);
-      const texels = pieceSize(this.complex) / 4;
+      const pieces = cellPieces(this.seen, this.far);
+      const texels = pieceSize(this.seen) / 4;
       const table = tableOf(gl, pieces, texels * Math.floor(ROW / texels)); // whole pieces in a row
       this.cells = { table, texels, count: pieces.length / 4 / texels };
     }
@@ -160,17 +163,17 @@ export class Scene2 {
    * @param {any} palette
    */
   _drawCircles(view, { power, reach }, palette) {
-    const { gl, complex } = this;
-    if (complex.vertexCount > MOST_CIRCLES) return;
+    const { gl, seen } = this;
+    if (this.complex.vertexCount > MOST_CIRCLES) return;
     this._use(this.circle, view);
     gl.uniform1f(this.circle.at.uPower, power);
     const corners = Math.round(Math.min(64, Math.max(12, 3.5 * Math.sqrt(reach * view.scale))));
     gl.uniform1i(this.circle.at.uCorners, corners);
     gl.uniform3fv(this.circle.at.uColour, rgb(palette.circles));
-    this.sites ??= tableOf(gl, ballsOf(complex));
+    this.sites ??= tableOf(gl, ballsOf(seen));
     gl.bindTexture(gl.TEXTURE_2D, this.sites);
     gl.bindVertexArray(null);
-    gl.drawArrays(gl.LINES, 0, 2 * corners * complex.vertexCount);
+    gl.drawArrays(gl.LINES, 0, 2 * corners * seen.vertexCount);
   }
 
   /**
@@ -181,7 +184,7 @@ export class Scene2 {
    */
   _drawTriangles(view, facts, palette, opacity) {
     const { gl } = this;
-    const count = facts.present[2];
+    const count = facts.shown[2];
     const { cache } = opacity === 1 ? this : { cache: null };
     const { x, y, zoom } = view.camera;
     const change = cache
@@ -206,7 +209,7 @@ export class Scene2 {
   _drawEdges(view, facts, layers, palette) {
     const { gl } = this;
     const spacing = this._spacing(view) / view.ratio;
-    const count = facts.present[1];
+    const count = facts.shown[1];
     if (layers.edges && showsEdges(spacing)) {
       this._use(this.inner, view);
       gl.uniform1ui(this.inner.at.uTriangles, facts.present[2]);
@@ -277,8 +280,8 @@ export class Scene2 {
     gl.uniform1ui(at.uEdges, facts.present[1]);
     gl.uniform3fv(at.uColours, [palette.points, palette.isolated].flatMap(rgb));
     gl.bindVertexArray(this.points);
-    gl.drawArrays(gl.POINTS, 0, facts.present[0]);
-    this.drawn.points = facts.present[0];
+    gl.drawArrays(gl.POINTS, 0, facts.shown[0]);
+    this.drawn.points = facts.shown[0];
   }
 
   /**
@@ -314,7 +317,7 @@ export class Scene2 {
 
 /**
  * Return the place and the weight of each vertex.
- * @param {PlaneComplex} complex
+ * @param {Seen} seen
  */
 function ballsOf({ positions, weights, vertexCount }) {
   const balls = new Float32Array(4 * vertexCount);
@@ -346,7 +349,7 @@ function interleaved(floats, columns, each = 2) {
 
 /**
  * Return both ends of each edge, each with the rank of the last triangle of the edge.
- * @param {PlaneComplex} complex
+ * @param {Seen} seen
  */
 function endsOf({ edges, positions, cofaces }) {
   const ends = new Float32Array(2 * edges.length);

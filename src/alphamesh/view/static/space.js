@@ -1,7 +1,8 @@
 // A filtration in space, and the facts at a radius.
 
-import { cofaceRanks, cornersOf, countsBelow, firstEdges, sumsBefore } from "./complex.js";
+import { cofaceRanks, cornersOf, countsBelow, sumsBefore } from "./complex.js";
 import { FilteredComplex } from "./filtered.js";
+import { Patch } from "./patch.js";
 
 /** @typedef {import("./filtered.js").Facts} Facts */
 
@@ -15,35 +16,44 @@ export class SpaceComplex extends FilteredComplex {
     this.tetrahedronFacets = /** @type {Uint32Array} */ (arrays.tetrahedron_facets);
     this.triangleCount = triangleEdges.length / 3;
     this.tetrahedronCount = this.tetrahedronFacets.length / 4;
-    this.triangles = cornersOf(this.edges, triangleEdges);
+    const told = /** @type {Uint32Array | undefined} */ (arrays.triangle_corners);
+    this.triangles = told ?? cornersOf(this.edges, triangleEdges);
     this.cofaces = cofaceRanks(this.tetrahedronFacets, 4, this.triangleCount);
     /** The rank of the first triangle of each edge. */
     this.covered = cofaceRanks(triangleEdges, 3, this.edgeCount).first;
-    this.joined = firstEdges(this.edges, this.vertexCount);
 
     this._verticesJoined = countsBelow(this.joined, this.edgeCount);
     this._edgesCovered = countsBelow(this.covered, this.triangleCount);
     this._entered = countsBelow(this.cofaces.first, this.tetrahedronCount);
     this._left = countsBelow(this.cofaces.last, this.tetrahedronCount);
-    const { volumes, areas } = this._measure();
-    this._volumes = sumsBefore(volumes);
-    this._areas = sumsBefore(areas);
+    const volumes = /** @type {Float32Array | undefined} */ (arrays.cell_sizes);
+    this._volumes = sumsBefore(volumes ?? this._measure());
+    const areas = /** @type {Float32Array | undefined} */ (arrays.facet_sizes);
+    this._areas = sumsBefore(this.borders(this.tetrahedronFacets, areas ?? this._faceAreas()));
     // From here on triangles run counter-clockwise seen from outside.
-    turn(this.triangles, /** @type {Uint8Array} */ (arrays.triangle_turned));
+    if (arrays.triangle_turned) turn(this.triangles, /** @type {Uint8Array} */ (arrays.triangle_turned));
+    /** Where the walls of a box cut tetrahedra, and when: nine coordinates each. */
+    this.caps = {
+      corners: /** @type {Float32Array} */ (arrays.caps ?? new Float32Array(0)),
+      ranks: /** @type {Uint32Array} */ (arrays.cap_ranks ?? new Uint32Array(0)),
+    };
+    /** @type {Patch | null} */
+    this.patch = this.box ? new Patch(this, 0) : null;
   }
 
-  /** Return how the volume and the area of the surface change with each tetrahedron. */
+  /** What is drawn. @returns {SpaceComplex | Patch} */
+  get seen() {
+    return this.patch ?? this;
+  }
+
+  /** Return the volume of each tetrahedron. */
   _measure() {
-    const volumes = new Float64Array(this.tetrahedronCount);
-    const areas = new Float64Array(this.tetrahedronCount);
-    const single = new Float64Array(this.triangleCount);
-    for (let f = 0; f < single.length; f++) single[f] = this.triangleArea(f);
-    for (let i = 0; i < this.tetrahedronFacets.length; i++) {
-      const f = this.tetrahedronFacets[i];
-      areas[i >> 2] += this.cofaces.first[f] === i >> 2 ? single[f] : -single[f];
-    }
-    for (let t = 0; t < volumes.length; t++) volumes[t] = this._volume(t);
-    return { volumes, areas };
+    return Float64Array.from({ length: this.tetrahedronCount }, (_, t) => this._volume(t));
+  }
+
+  /** Return the area of each triangle. */
+  _faceAreas() {
+    return Float64Array.from({ length: this.triangleCount }, (_, f) => this.triangleArea(f));
   }
 
   /** @param {number} f @returns {number} in units of the picture */
@@ -72,11 +82,6 @@ export class SpaceComplex extends FilteredComplex {
     return [p[3 * b] - p[3 * a], p[3 * b + 1] - p[3 * a + 1], p[3 * b + 2] - p[3 * a + 2]];
   }
 
-  /** @param {number} e @returns {number} in units of the picture */
-  edgeLength(e) {
-    return Math.hypot(...this._step(this.edges[2 * e], this.edges[2 * e + 1]));
-  }
-
   /**
    * Return the facts at a radius, in time that does not depend on the size of the cloud.
    * @param {number} radius
@@ -92,6 +97,7 @@ export class SpaceComplex extends FilteredComplex {
     return {
       radius,
       present,
+      shown: this.shown(present),
       betti: this.betti(present),
       isolated: vertices - this._verticesJoined[edges],
       singularEdges: edges - this._edgesCovered[triangles],
@@ -100,6 +106,7 @@ export class SpaceComplex extends FilteredComplex {
       interior,
       size: this._volumes[tetrahedra] * scale ** 3,
       border: boundary ? this._areas[tetrahedra] * scale ** 2 : 0,
+      full: this.isFull(present),
     };
   }
 }

@@ -2,6 +2,7 @@
 
 import { cellPieces, pieceSize } from "./cells.js";
 import { NEVER } from "./complex.js";
+import { VEIL, veilOf } from "./veil.js";
 import { hiddenSize, lineWidth, pointSizes, showsEdges, spacingOf } from "./sizes.js";
 
 /**
@@ -29,7 +30,7 @@ export function svgOf(complex, { facts, camera, layers, palette, title }) {
   }
   if (layers.triangles) {
     const opacity = layers.cells || layers.discs ? 0.72 : 1;
-    const path = draw.triangles(facts.present[2]);
+    const path = draw.triangles(facts.shown[2]);
     parts.push(`<path fill="${palette.triangles}" fill-opacity="${opacity}" d="${path}"/>`);
   }
   const wide = short(lineWidth(spacing));
@@ -54,6 +55,12 @@ export function svgOf(complex, { facts, camera, layers, palette, title }) {
     parts.push(`<g fill="${palette.points}">${dots}</g>`);
     parts.push(`<g fill="${palette.isolated}">${draw.dots(facts, isolated / 2, true)}</g>`);
   }
+  if (complex.box) {
+    const { veil, rest, frame } = veilOf(complex.box, camera);
+    const fill = `fill="${palette.background}" fill-rule="evenodd"`;
+    parts.push(`<path ${fill} fill-opacity="${VEIL}" d="${veil}"/>`, `<path ${fill} d="${rest}"/>`);
+    parts.push(`<path fill="none" stroke="${palette.text}" d="${frame}"/>`);
+  }
   return [
     `<svg xmlns="http://www.w3.org/2000/svg" width="${short(width)}" height="${short(height)}"`,
     ` viewBox="0 0 ${short(width)} ${short(height)}">`,
@@ -72,12 +79,13 @@ class Drawing {
    */
   constructor(complex, camera) {
     this.complex = complex;
+    this.seen = complex.seen;
     this.camera = camera;
   }
 
   /** @param {number} v */
   place(v) {
-    const p = this.complex.positions;
+    const p = this.seen.positions;
     return this.camera.toScreen(p[2 * v], p[2 * v + 1]);
   }
 
@@ -97,7 +105,7 @@ class Drawing {
 
   /** @param {number} count */
   triangles(count) {
-    const { triangles } = this.complex;
+    const { triangles } = this.seen;
     let text = "";
     for (let t = 0; t < 3 * count; t += 3) {
       text += this.path([triangles[t], triangles[t + 1], triangles[t + 2]], "Z");
@@ -110,8 +118,8 @@ class Drawing {
    * @param {number} kind 0 singular, 1 boundary, 2 interior
    */
   edges(facts, kind) {
-    const { edges, cofaces } = this.complex;
-    const [, count, triangles] = facts.present;
+    const { edges, cofaces } = this.seen;
+    const [count, triangles] = [facts.shown[1], facts.present[2]];
     let text = "";
     for (let e = 0; e < count; e++) {
       const entered = cofaces.first[e] < triangles ? 1 : 0;
@@ -127,14 +135,14 @@ class Drawing {
    * @param {boolean} isolated
    */
   dots(facts, size, isolated) {
-    const { joined } = this.complex;
-    const [vertices, edges] = facts.present;
+    const { joined } = this.seen;
+    const [vertices, edges] = [facts.shown[0], facts.present[1]];
     return this.circles((v) => (v < vertices && joined[v] >= edges === isolated ? size : 0));
   }
 
   /** Radii of balls on paper. @param {number} radius @returns {(v: number) => number} */
   balls(radius) {
-    const { weights } = this.complex;
+    const { weights } = this.seen;
     const power = this.complex.power(radius);
     return (v) => Math.sqrt(Math.max(0, power + (weights ? weights[v] : 0))) * this.camera.scale;
   }
@@ -152,7 +160,7 @@ class Drawing {
   circles(radiusOf) {
     const { width, height } = this.camera;
     let text = "";
-    for (let v = 0; v < this.complex.vertexCount; v++) {
+    for (let v = 0; v < this.seen.vertexCount; v++) {
       const radius = radiusOf(v);
       if (radius === 0) continue;
       const [x, y] = this.place(v);
@@ -172,11 +180,11 @@ class Drawing {
   cells(facts, layers, palette, spacing) {
     const { complex, camera } = this;
     const far = Math.max(64, 8 * complex.reach(facts.radius));
-    const pieces = cellPieces(complex, far);
+    const pieces = cellPieces(complex.seen, far);
     const power = complex.power(facts.radius);
     let [clips, discs] = ["", ""];
     let id = 0;
-    for (const { colour, x, y, weight, tip, corners } of gathered(pieces, pieceSize(complex))) {
+    for (const { colour, x, y, weight, tip, corners } of gathered(pieces, pieceSize(complex.seen))) {
       const shown = Math.sqrt(Math.max(0, power + weight)) * camera.scale;
       const [sx, sy] = camera.toScreen(x, y);
       if (shown === 0 || sx < -shown || sy < -shown) continue;
