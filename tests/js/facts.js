@@ -15,6 +15,12 @@ const curves = complex.diagrams.map((diagram) => new BettiCurve(diagram));
 const told = {
   meta: payload.meta,
   positions: [...complex.positions],
+  words: complex.words,
+  drawn: {
+    positions: [...complex.seen.positions],
+    edges: [...complex.seen.edges],
+    triangles: [...complex.seen.triangles],
+  },
   hidden: [...complex.hidden.rows],
   rows: Array.from({ length: complex.vertexCount }, (_, v) => complex.rowOf(v)),
   triangles: [...complex.triangles],
@@ -29,11 +35,15 @@ console.log(JSON.stringify(told));
 
 /** Areas of the Voronoi cells, those that go on for ever cut off somewhere. */
 function areas() {
-  const pieces = cellPieces(complex, 64);
-  const size = pieceSize(complex);
+  const { seen } = complex;
+  const pieces = cellPieces(seen, 64);
+  const size = pieceSize(seen);
+  // In a box, the copies of vertices that lie in it.
+  const own = complex.patch ? (v) => inside(seen.positions, v) && complex.patch.owner[v] : (v) => v;
   const places = new Map();
-  for (let v = 0; v < complex.vertexCount; v++) {
-    places.set(`${complex.positions[2 * v]},${complex.positions[2 * v + 1]}`, v);
+  for (let v = 0; v < seen.vertexCount; v++) {
+    if (own(v) === false) continue;
+    places.set(`${seen.positions[2 * v]},${seen.positions[2 * v + 1]}`, own(v));
   }
   const found = new Array(complex.vertexCount).fill(0);
   for (let i = 0; i < pieces.length; i += size) {
@@ -43,8 +53,14 @@ function areas() {
     for (const [x, y, k] of alone ? [[ux, uy, 0]] : [[ux, uy, 0], [vx, vy, 2]]) {
       const [tx, ty] = [tips[k], tips[k + 1]];
       const area = Math.abs((ax - tx) * (by - ty) - (bx - tx) * (ay - ty)) / 2;
-      found[places.get(`${x},${y}`)] += area;
+      const cell = places.get(`${x},${y}`);
+      if (cell !== undefined) found[cell] += area;
     }
   }
   return found;
+}
+
+function inside(p, v) {
+  const { low, high, periods } = complex.box;
+  return periods.every((side, k) => !side || (p[2 * v + k] >= low[k] && p[2 * v + k] <= high[k]));
 }

@@ -1,7 +1,9 @@
 // The picture in space: what is drawn, how it turns, what is under the pointer.
 
 import { Camera3, dot } from "./camera3.js";
+import { countUpTo } from "./complex.js";
 import { element } from "./dom.js";
+import { ballsOf, frameOf, sidesInFront } from "./frame3.js";
 import { Scene3 } from "./scene3.js";
 import { svgOfSurface } from "./svg3.js";
 import { count, counted, number } from "./text.js";
@@ -21,7 +23,9 @@ export class Picture3 {
     this.complex = complex;
     this.limit = limit;
     const overhang = Math.min(0.4, complex.reach(0));
-    this.camera = new Camera3(farthest(complex.positions) + overhang);
+    const [low, high] = complex.box ? [complex.box.low, complex.box.high] : [[], []];
+    const corners = complex.box ? [...low, ...high] : complex.positions;
+    this.camera = new Camera3(farthest(corners) + overhang);
     /** @type {Scene3 | null} */
     this.scene = null;
     const weighted = Boolean(complex.weights) && complex.vertexCount <= 3000;
@@ -151,12 +155,13 @@ export class Picture3 {
     this.scene.pick(facts);
     const { from, way } = this.camera.ray(px, py);
     const shown = { boundary: layers.boundary, singular: layers.singular };
-    const index = this.scene.picker.hit(from, way, this.shown ?? null, shown);
+    const index = this.scene.picker.hit(from, way, (place) => this._keeps(place), shown);
     if (index < 0) return null;
-    const corners = [...this.complex.triangles.subarray(3 * index, 3 * index + 3)];
-    const rows = corners.map((v) => this.complex.rowOf(v)).sort((a, b) => a - b);
-    const value = this.complex.values[2][index];
-    const alone = this.complex.cofaces.first[index] >= facts.present[3];
+    const { seen, patch } = this.complex;
+    const corners = [...seen.triangles.subarray(3 * index, 3 * index + 3)];
+    const rows = corners.map((v) => this.complex.rowOfDrawn(v)).sort((a, b) => a - b);
+    const value = this.complex.values[2][patch ? patch.own[2][index] : index];
+    const alone = seen.cofaces.first[index] >= facts.present[3];
     return {
       simplex: { dimension: 2, index, corners, value },
       lines: [
@@ -172,7 +177,7 @@ export class Picture3 {
    */
   drawOver(c, { palette, hovered }) {
     if (!hovered) return;
-    const p = this.complex.positions;
+    const p = this.complex.seen.positions;
     c.strokeStyle = palette.radius;
     c.lineWidth = 2;
     c.beginPath();
@@ -219,12 +224,29 @@ export class Picture3 {
    * @param {{facts: Facts, layers: Record<string, boolean>}} state
    */
   _balls({ facts, layers }) {
-    const { positions, weights, vertexCount } = this.complex;
+    const balls = layers.balls ? ballsOf(this.complex) : new Float32Array(0);
     const power = this.complex.power(facts.radius);
-    return Array.from({ length: layers.balls ? vertexCount : 0 }, (_, v) => ({
-      place: positions.subarray(3 * v, 3 * v + 3),
-      radius: Math.sqrt(Math.max(0, power + (weights ? weights[v] : 0))),
+    return Array.from({ length: balls.length / 4 }, (_, i) => ({
+      place: balls.subarray(4 * i, 4 * i + 3),
+      radius: Math.sqrt(Math.max(0, power + balls[4 * i + 3])),
     }));
+  }
+
+  /** Whether a place is in the box, and on this side of the cut. @param {ArrayLike<number>} p */
+  _keeps(p) {
+    if (this.shown && dot(this.shown.normal, p) > this.shown.offset) return false;
+    return this._walls().every(({ normal, offset }) => dot(normal, p) <= offset + 1e-4);
+  }
+
+  /** The planes where a box ends. @returns {import("./scene3.js").Cut[]} */
+  _walls() {
+    const { box } = this.complex;
+    if (!box) return [];
+    return [0, 1, 2].filter((k) => box.periods[k]).flatMap((k) => {
+      const normal = [0, 0, 0].map((_, i) => (i === k ? 1 : 0));
+      const back = normal.map((n) => -n);
+      return [{ normal, offset: box.high[k] }, { normal: back, offset: -box.low[k] }];
+    });
   }
 
   /** @param {{facts: Facts, layers: Record<string, boolean>, palette: any, title: string}} state */
@@ -234,13 +256,22 @@ export class Picture3 {
     if (!picker) return "";
     /** @param {ArrayLike<number>} p */
     const kept = (p) => !this.shown || dot(this.shown.normal, p) <= this.shown.offset;
-    return svgOfSurface(picker, this.camera, kept, { ...state, balls: this._balls(state) });
+    const { box, caps } = this.complex;
+    const count = countUpTo(caps.ranks, state.facts.present[3] - 1);
+    return svgOfSurface(picker, this.camera, kept, {
+      ...state,
+      balls: this._balls(state),
+      walls: this._walls(),
+      caps: caps.corners.subarray(0, 9 * count),
+      frame: frameOf(box),
+      inFront: box ? sidesInFront(box, this.camera.eye) : [],
+    });
   }
 }
 
 /**
  * Return how far the farthest point is from the middle.
- * @param {Float32Array} p
+ * @param {ArrayLike<number>} p
  */
 function farthest(p) {
   let most = 0;

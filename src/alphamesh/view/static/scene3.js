@@ -1,6 +1,7 @@
 // The picture in space, drawn by the GPU.
 
-import { NEVER } from "./complex.js";
+import { countUpTo, NEVER } from "./complex.js";
+import { ballsOf, frameOf, sidesInFront } from "./frame3.js";
 import { compile, tableOf, vertexArray } from "./gl.js";
 import * as shaders from "./shaders3.js";
 import { spacingOf } from "./sizes.js";
@@ -21,7 +22,10 @@ import { rgb } from "./theme.js";
 /** Where light comes from: right, up, towards the viewer. */
 const LIGHT = [-0.35, 0.5, 0.79];
 
-const NOTHING = { triangles: 0, singular: 0, lone: 0, points: 0, hidden: 0, balls: 0 };
+const NOTHING = { triangles: 0, singular: 0, lone: 0, points: 0, hidden: 0, balls: 0, caps: 0 };
+
+/** What lies on a wall of a box is in the box, whatever is rounded. */
+const SLACK = 1e-4;
 
 /** Draws a complex in space. */
 export class Scene3 {
@@ -37,9 +41,9 @@ export class Scene3 {
     this.line = compile(gl, shaders.LINE_VERTEX, shaders.LINE_FRAGMENT);
     this.ball = compile(gl, shaders.BALL_VERTEX, shaders.BALL_FRAGMENT);
     this.grown = compile(gl, shaders.GROWN_VERTEX, shaders.GROWN_FRAGMENT);
-    /** @type {WebGLTexture | null} */
+    /** @type {{table: WebGLTexture | null, count: number} | null} */
     this.sites = null;
-    this.picker = new SurfacePicker(complex);
+    this.picker = new SurfacePicker(complex.seen);
     this.pickedAt = "";
     /** What the last picture was made of. */
     this.drawn = { ...NOTHING };
@@ -51,7 +55,13 @@ export class Scene3 {
     const joined = { place: 1, size: 1, offset: 12, whole: true };
     const { hidden } = complex;
     const never = new Uint32Array(hidden.rows.length).fill(NEVER);
-    this.points = vertexArray(gl, fours(complex.positions, complex.joined), 16, [place, joined]);
+    const { positions, joined: ranks } = complex.seen;
+    this.points = vertexArray(gl, fours(positions, ranks), 16, [place, joined]);
+    this.caps = vertexArray(gl, complex.caps.corners, 12, [place]);
+    this.frame = vertexArray(gl, frameOf(complex.box), 12, [place]);
+    /** Corners of the box, or of all there is. */
+    this.low = [0, 1, 2].map((k) => (complex.box?.periods[k] ? complex.box.low[k] - SLACK : -1e9));
+    this.high = [0, 1, 2].map((k) => (complex.box?.periods[k] ? complex.box.high[k] + SLACK : 1e9));
     this.hidden = vertexArray(gl, fours(hidden.positions, never), 16, [place, joined]);
   }
 
@@ -83,6 +93,7 @@ export class Scene3 {
     gl.disable(gl.BLEND);
     this.pick(facts);
     this.drawn = { ...NOTHING };
+    if (this.complex.box) this._drawFrame(state, false);
     // Lines and points lie on the surface: it is moved back by a hair.
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 1);
@@ -98,6 +109,7 @@ export class Scene3 {
     if (layers.points) this._drawPoints(state);
     if (layers.hidden) this._drawHidden(state);
     if (layers.balls && this.complex.reach(facts.radius) > 0) this._drawBalls(state);
+    if (this.complex.box) this._drawFrame(state, true);
     gl.bindVertexArray(null);
   }
 
@@ -111,6 +123,8 @@ export class Scene3 {
     gl.uniformMatrix4fv(at.uMatrix, false, camera.matrix);
     if (cut) gl.uniform4f(at.uCut, cut.normal[0], cut.normal[1], cut.normal[2], cut.offset);
     else gl.uniform4f(at.uCut, 0, 0, 0, 1);
+    gl.uniform3fv(at.uLow, this.low);
+    gl.uniform3fv(at.uHigh, this.high);
   }
 
   /** @param {State} state */
@@ -124,6 +138,8 @@ export class Scene3 {
     gl.uniform3fv(surface.at.uWire, rgb(palette.boundary));
     const apart = this.spacing * camera.pixelsAt(camera.distance);
     gl.uniform1f(surface.at.uWidth, layers.wire && apart > 4 ? Math.min(1, apart / 14) * ratio : 0);
+    gl.uniform1f(surface.at.uFlat, 0);
+    if (layers.boundary) this._drawCaps(state);
     gl.bindVertexArray(this.triangles);
     if (layers.boundary) {
       // What is closed shows its inside only where it is cut; thin parts would shine through.
@@ -142,6 +158,44 @@ export class Scene3 {
     }
   }
 
+  /**
+   * Draw where the walls of a box cut tetrahedra.
+   * @param {State} state
+   */
+  _drawCaps({ facts, palette, cut }) {
+    const { gl, surface } = this;
+    this.drawn.caps = countUpTo(this.complex.caps.ranks, facts.present[3] - 1);
+    gl.uniform3fv(surface.at.uOutside, rgb(palette.inside));
+    gl.uniform1i(surface.at.uBothSides, 1);
+    // Seen from inside, through a cut, a wall looks as if filled.
+    gl.uniform1f(surface.at.uFlat, cut ? 1 : 0.55);
+    const { uWidth } = surface.at;
+    const width = /** @type {number} */ (gl.getUniform(surface.program, /** @type {WebGLUniformLocation} */ (uWidth)));
+    gl.uniform1f(uWidth, 0);
+    gl.bindVertexArray(this.caps);
+    gl.drawArrays(gl.TRIANGLES, 0, 3 * this.drawn.caps);
+    gl.uniform1f(uWidth, width);
+    gl.uniform1f(surface.at.uFlat, 0);
+  }
+
+  /**
+   * Draw the sides of a box that are in front of all in it, or those behind.
+   * @param {State} state
+   * @param {boolean} inFront
+   */
+  _drawFrame(state, inFront) {
+    const { gl, line } = this;
+    const box = /** @type {import("./filtered.js").Box} */ (this.complex.box);
+    this._use(line, { ...state, cut: null });
+    gl.uniform3fv(line.at.uColour, rgb(state.palette.text));
+    gl.bindVertexArray(this.frame);
+    gl.disable(gl.DEPTH_TEST);
+    sidesInFront(box, state.camera.eye).forEach((front, i) => {
+      if (front === inFront) gl.drawArrays(gl.LINES, 2 * i, 2);
+    });
+    gl.enable(gl.DEPTH_TEST);
+  }
+
   /** @param {State} state */
   _drawPoints(state) {
     const { gl, ball } = this;
@@ -153,8 +207,8 @@ export class Scene3 {
     const seen = !state.cut && size * camera.pixelsAt(camera.distance) > 1.2;
     gl.uniform2f(ball.at.uSizes, seen ? size : 0, 1.4 * size);
     gl.bindVertexArray(this.points);
-    gl.drawArrays(gl.POINTS, 0, facts.present[0]);
-    this.drawn.points = facts.present[0];
+    gl.drawArrays(gl.POINTS, 0, facts.shown[0]);
+    this.drawn.points = facts.shown[0];
   }
 
   /** @param {State} state */
@@ -188,9 +242,13 @@ export class Scene3 {
   _drawBalls(state) {
     const { gl, complex, grown } = this;
     const { camera, palette, facts } = state;
-    this.sites ??= tableOf(gl, ballsOf(complex));
+    if (!this.sites) {
+      const balls = ballsOf(complex);
+      this.sites = { table: tableOf(gl, balls), count: balls.length / 4 };
+    }
+    const corners = 6 * this.sites.count;
     this._use(grown, state);
-    gl.bindTexture(gl.TEXTURE_2D, this.sites);
+    gl.bindTexture(gl.TEXTURE_2D, this.sites.table);
     gl.uniform1f(grown.at.uPower, complex.power(facts.radius));
     gl.uniform3fv(grown.at.uEye, camera.eye);
     gl.uniform3fv(grown.at.uLight, lightOf(camera));
@@ -199,7 +257,7 @@ export class Scene3 {
     gl.uniform1f(grown.at.uOpacity, 0.5);
     gl.bindVertexArray(null);
     gl.colorMask(false, false, false, false);
-    gl.drawArrays(gl.TRIANGLES, 0, 6 * complex.vertexCount);
+    gl.drawArrays(gl.TRIANGLES, 0, corners);
     gl.colorMask(true, true, true, true);
     gl.depthFunc(gl.LEQUAL);
     gl.enable(gl.BLEND);
@@ -208,10 +266,10 @@ export class Scene3 {
     gl.enable(gl.STENCIL_TEST);
     gl.stencilFunc(gl.EQUAL, 0, 1);
     gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
-    gl.drawArrays(gl.TRIANGLES, 0, 6 * complex.vertexCount);
+    gl.drawArrays(gl.TRIANGLES, 0, corners);
     gl.disable(gl.STENCIL_TEST);
     gl.disable(gl.BLEND);
-    this.drawn.balls = complex.vertexCount;
+    this.drawn.balls = this.sites.count;
   }
 }
 
@@ -233,17 +291,4 @@ function fours(places, column) {
     records[4 * v + 3] = column[v];
   }
   return records;
-}
-
-/**
- * Return the place and the weight of each vertex.
- * @param {SpaceComplex} complex
- */
-function ballsOf({ positions, weights, vertexCount }) {
-  const balls = new Float32Array(4 * vertexCount);
-  for (let v = 0; v < vertexCount; v++) {
-    balls.set(positions.subarray(3 * v, 3 * v + 3), 4 * v);
-    balls[4 * v + 3] = weights ? weights[v] : 0;
-  }
-  return balls;
 }

@@ -2,8 +2,27 @@
 
 const CUT = `
 uniform vec4 uCut;
-bool isCut(vec3 p) { return dot(uCut.xyz, p) > uCut.w; }
-void keep(vec3 p) { if (isCut(p)) discard; }
+uniform vec3 uLow; // of a periodic box
+uniform vec3 uHigh;
+void keep(vec3 p) {
+  if (dot(uCut.xyz, p) > uCut.w) discard;
+  if (any(lessThan(p, uLow)) || any(greaterThan(p, uHigh))) discard;
+}
+// From where to where on its way a ray is in the box, and on this side of the cut.
+vec2 kept(vec3 from, vec3 way) {
+  vec3 safe = mix(way, vec3(1e-9), vec3(lessThan(abs(way), vec3(1e-9))));
+  vec3 one = (uLow - from) / safe;
+  vec3 two = (uHigh - from) / safe;
+  vec3 enter = min(one, two);
+  vec3 leave = max(one, two);
+  vec2 span = vec2(max(max(enter.x, enter.y), enter.z), min(min(leave.x, leave.y), leave.z));
+  float steep = dot(uCut.xyz, way);
+  float height = uCut.w - dot(uCut.xyz, from);
+  if (steep > 0.0) span.y = min(span.y, height / steep);
+  else if (steep < 0.0) span.x = max(span.x, height / steep);
+  else if (height < 0.0) span.y = -1e30;
+  return span;
+}
 `;
 
 export const SURFACE_VERTEX = `
@@ -28,6 +47,7 @@ uniform vec3 uLight;
 uniform vec3 uBack;
 uniform float uWidth;
 uniform bool uBothSides;
+uniform float uFlat; // from 0, lit, to 1, the same from all sides
 in vec3 vPlace;
 in vec3 vCorner;
 out vec4 colour;
@@ -37,7 +57,7 @@ void main() {
   if (dot(normal, uBack) < 0.0) normal = -normal;
   float shade = 0.5 + 0.5 * max(dot(normal, uLight), 0.0);
   bool outside = uBothSides || gl_FrontFacing;
-  vec3 base = outside ? uOutside * shade : uInside;
+  vec3 base = mix(outside ? uOutside * shade : uInside, uInside, uFlat);
   vec3 pixels = vCorner / max(fwidth(vCorner), vec3(1e-6));
   float line = outside ? clamp(uWidth - min(min(pixels.x, pixels.y), pixels.z), 0.0, 1.0) : 0.0;
   colour = vec4(mix(base, uWire, 0.55 * line), 1.0);
@@ -135,11 +155,11 @@ void main() {
   vec3 place = vBall.xyz + nearest - back;
   float shade = 0.5 + 0.5 * max(dot(normal, uLight), 0.0);
   vec3 base = uOutside * shade;
-  if (isCut(place)) {
+  vec2 span = kept(place, way);
+  if (span.x > min(span.y, 2.0 * length(back)) || span.y < 0.0) discard;
+  if (span.x > 0.0) {
     // Where the ray enters what is left of the ball: on the cut.
-    float further = (uCut.w - dot(uCut.xyz, place)) / dot(uCut.xyz, way);
-    if (further < 0.0 || further > 2.0 * length(back)) discard;
-    place += further * way;
+    place += span.x * way;
     base = uInside;
   }
   vec4 seen = uMatrix * vec4(place, 1.0);
