@@ -26,6 +26,7 @@ from alphamesh.plot.cycles import plot_cycles
 from alphamesh.plot.drawing import Drawing, plot_cloud
 from alphamesh.plot.growth import GrowthView
 from alphamesh.plot.growth3d import GrowthView3D
+from alphamesh.plot.growth_box import GrowthViewBox, GrowthViewBox3D
 from alphamesh.plot.outlines import plot_frame, plot_hull
 from alphamesh.plot.overview import plot_overview
 from alphamesh.plot.overview3d import plot_cloud_in_space
@@ -44,6 +45,8 @@ __all__ = [
     "Drawing",
     "GrowthView",
     "GrowthView3D",
+    "GrowthViewBox",
+    "GrowthViewBox3D",
     "cell_coloring",
     "figure_bytes",
     "plot_balls",
