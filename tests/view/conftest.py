@@ -73,6 +73,30 @@ def atoms(tmp_path_factory):
     return path
 
 
+@pytest.fixture(scope="package")
+def tile(tmp_path_factory):
+    """A box in the plane with a round hole across its border, and its page."""
+    points = np.random.default_rng(3).random((160, 2)) * 10
+    away = np.abs(points - [9, 1.5])
+    points = points[np.hypot(*np.minimum(away, 10 - away).T) > 2]
+    cx = am.AlphaComplex(points, periods=(10, 10))
+    path = tmp_path_factory.mktemp("view") / "tile.html"
+    cx.view(path, title="A box")
+    return cx, path
+
+
+@pytest.fixture(scope="package")
+def block(tmp_path_factory):
+    """A box in space with a network in it, and its page."""
+    points = np.random.default_rng(1).random((500, 3))
+    x, y, z = 2 * np.pi * points.T
+    inside = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x) > 0.2
+    cx = am.AlphaComplex(points[inside], periods=(1, 1, 1))
+    path = tmp_path_factory.mktemp("view") / "block.html"
+    cx.view(path, title="A network")
+    return cx, path
+
+
 @pytest.fixture
 def room(browser, solid):
     with Visit(browser, solid) as opened:

@@ -32,14 +32,21 @@ WEIGHTED = {
     "atoms": {"radius": -0.5, "layers": "besnpoh"},
     "atoms-cut": {"radius": 0.5, "layers": "besnox"},
 }
-ALL = PICTURES | SOLIDS | WEIGHTED
+BOXES = {
+    "tile": {"radius": 0.55, "layers": "dtebsp"},
+    "tile-cells": {"radius": 0.45, "layers": "vp"},
+    "block": {"radius": 0.12, "layers": "besnp"},
+    "block-cut": {"radius": 0.12, "layers": "besnxo"},
+}
+ALL = PICTURES | SOLIDS | WEIGHTED | BOXES
 
 
 @pytest.fixture(scope="module")
-def pages(file, solid, crowns, atoms):
+def pages(file, solid, crowns, atoms, tile, block):
     plane = dict.fromkeys(PICTURES, file)
     weighted = {name: atoms if name.startswith("atoms") else crowns[1] for name in WEIGHTED}
-    return plane | dict.fromkeys(SOLIDS, solid) | weighted
+    boxes = {name: tile[1] if name.startswith("tile") else block[1] for name in BOXES}
+    return plane | dict.fromkeys(SOLIDS, solid) | weighted | boxes
 
 
 def drawn(visit, radius, layers):
