@@ -64,6 +64,23 @@ export function movesOf(low, high, box, margin) {
   return moves;
 }
 
+/** The moves of what stays where it is, in the plane and in space. */
+const STAYS = [[[0, 0]], [[0, 0, 0]]];
+
+/**
+ * Whether what lies there is in the box, and none of its copies is seen.
+ * @param {number[]} low
+ * @param {number[]} high
+ * @param {Box} box
+ * @param {number} margin
+ */
+function isAlone(low, high, box, margin) {
+  return box.periods.every((side, k) => {
+    const room = (1 - margin) * (side ?? 0);
+    return !side || (high[k] < box.low[k] + room && low[k] > box.high[k] - room);
+  });
+}
+
 /** All that is seen of a complex in a box and around it. */
 export class Patch {
   /**
@@ -130,7 +147,10 @@ export class Patch {
           high[k] = Math.max(high[k], place);
         }
       }
-      for (const move of movesOf(low, high, /** @type {Box} */ (box), this.margin)) {
+      const moves = isAlone(low, high, /** @type {Box} */ (box), this.margin)
+        ? STAYS[ambient - 2]
+        : movesOf(low, high, /** @type {Box} */ (box), this.margin);
+      for (const move of moves) {
         own.push(i);
         for (let j = 0; j < size; j++) {
           copies.push(ghosts.at(corners[size * i + j], shifts[j].map((s, k) => s + move[k])));
