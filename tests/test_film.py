@@ -336,13 +336,13 @@ def test_films_of_periodic_boxes(name, tmp_path):
     rng = np.random.default_rng(3)
     weights = rng.random(25) / 30 if weighted else None
     cx = am.AlphaComplex(rng.random((25, len(periods))), periods=periods, weights=weights)
-    film = cx.animate(tmp_path / "box.gif", frames=5, width=240)
+    film = cx.animate(tmp_path / "box.gif", frames=3, width=200)
     pairs = cx.persistence()
     assert film.betti.tolist() == pairs.betti_numbers(film.radii).tolist()
     # At the end all classes that stay have come, but for that of the whole box.
     assert film.betti[-1, 1] == len(pairs.essential[1])
     pictures = frames_of(film.path)
-    assert len(pictures) == 5
+    assert len(pictures) == 3
     assert all(np.abs(b - a).sum() > 0 for a, b in pairwise(pictures))
 
 

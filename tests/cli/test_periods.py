@@ -144,4 +144,5 @@ def test_boxes_are_shown_live_drawn_in_space_and_filmed(boxed):
     box = ("box.csv", "--periods", "10,10,10")
     assert facts("view", *box, "-o", "page.html")["periods"] == [10, 10, 10]
     assert facts("plot", *box, "-o", "box.png")["view"] == "complex"
-    assert len(facts("animate", *box, "--frames", "2", "-o", "a.gif")["radii"]) == 2
+    film = ("--frames", "2", "--width", "200", "-o", "a.gif")
+    assert len(facts("animate", *box, *film)["radii"]) == 2

@@ -164,5 +164,6 @@ def test_pages_and_films_of_weighted_points(table):
     pytest.importorskip("matplotlib")
     out = facts("view", table, "--weights", "w", "-r", "-0.01", "-o", "page.html")
     assert out["radius"] == -0.01
-    out = facts("animate", table, "--weights", "w", "--frames", "2", "-o", "a.gif")
+    film = ("--frames", "2", "--width", "200", "-o", "a.gif")
+    out = facts("animate", table, "--weights", "w", *film)
     assert out["radii"][0] < 0
