@@ -82,6 +82,33 @@ def periodic():
     return figure_bytes(cx.plot(0.42).figure, "svg")
 
 
+def periodic_space():
+    """Draw the network of docs/periodic.md: its block, that cut open, a layer beside it."""
+    figure = new_figure(12, 4.2)
+    axes = figure.subplots(1, 3)
+    figure.subplots_adjust(0.0, 0.0, 1.0, 1.0, 0.0)
+    points = np.random.default_rng(1).random((3000, 3)) * 10
+    x, y, z = 2 * np.pi * points.T / 10
+    inside = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x) > 0.2
+    network = am.AlphaComplex(points[inside], periods=(10, 10, 10)).at(0.85)
+    network.plot(axes[0])
+    network.plot(axes[1], cut="-y")
+    layer = points[inside & (points[:, 2] < 3)]
+    am.AlphaComplex(layer, periods=(10, 10, None)).at(0.7).plot(axes[2], view=(38, -58))
+    return small_png(figure, dpi=75)
+
+
+def periodic_film():
+    """Make the film of the box of docs/periodic.md; read back, as that of the tutorial."""
+    points = np.random.default_rng(3).random((140, 2)) * 10
+    away = np.abs(points - [9, 1.5])
+    points = points[np.hypot(*np.minimum(away, 10 - away).T) > 2]
+    target = PICTURES / "periodic.gif"
+    cx = am.AlphaComplex(points, periods=(10, 10))
+    cx.animate(target, frames=24, fps=5, width=440)
+    return target.read_bytes()
+
+
 def topology():
     """Draw the same classes of homology in three ways."""
     cx = tutorial_complex()
@@ -244,6 +271,8 @@ MAKERS = {
     "radii.png": three_radii,
     "cells.svg": cells,
     "periodic.svg": periodic,
+    "periodic-space.png": periodic_space,
+    "periodic.gif": periodic_film,
     "topology.png": topology,
     "soho.png": soho,
     "airports.png": airports,

@@ -1,11 +1,12 @@
 """Draw the pictures of docs/view.md: pages in headless Chromium, at three radii each.
 
-Usage: python docs/make_view_pictures.py
+Usage: python docs/make_view_pictures.py [NAME ...]
 """
 
 import io
 import os
 import shutil
+import sys
 import tempfile
 from pathlib import Path
 
@@ -36,7 +37,46 @@ def space():
     return am.AlphaComplex(points[first & second])
 
 
-PAGES = {"plane": (plane, "An eight"), "space": (space, "A ball with two voids")}
+def crowns():
+    """Return the complex of docs/weights.md."""
+    rng = np.random.default_rng(4)
+    trees, radii = rng.random((70, 2)) * [60, 48], rng.lognormal(0.9, 0.5, 70)
+    return am.AlphaComplex(trees, weights=radii**2)
+
+
+def helix():
+    """Return the complex of balls of different sizes along a helix."""
+    rng = np.random.default_rng(2)
+    t = np.linspace(0, 14, 90)
+    axis = np.column_stack((3 * np.cos(t), 3 * np.sin(t), 0.9 * t))
+    radii = rng.choice([1.7, 1.55, 1.52, 1.2], 90)
+    return am.AlphaComplex(axis + rng.normal(0, 0.45, (90, 3)), weights=radii**2)
+
+
+def box():
+    """Return the complex of docs/periodic.md."""
+    points = np.random.default_rng(3).random((260, 2)) * 10
+    away = np.abs(points - [9, 1.5])
+    points = points[np.hypot(*np.minimum(away, 10 - away).T) > 2]
+    return am.AlphaComplex(points, periods=(10, 10))
+
+
+def network():
+    """Return the complex of a network in a box."""
+    points = np.random.default_rng(1).random((3000, 3)) * 10
+    x, y, z = 2 * np.pi * points.T / 10
+    inside = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x) > 0.2
+    return am.AlphaComplex(points[inside], periods=(10, 10, 10))
+
+
+PAGES = {
+    "plane": (plane, "An eight"),
+    "space": (space, "A ball with two voids"),
+    "crowns": (crowns, "Trees and their crowns"),
+    "helix": (helix, "A helix of balls"),
+    "box": (box, "A box"),
+    "network": (network, "A network in a box"),
+}
 # The page, light or dark, and what its address says.
 SHOTS = {
     "view.png": ("plane", "light", ""),
@@ -46,6 +86,10 @@ SHOTS = {
     "view-space.png": ("space", "light", "r=0.05&show=besnp"),
     "view-space-chosen.png": ("space", "dark", "r=0.14&show=besnp"),
     "view-space-cut.png": ("space", "light", "r=0.14&show=besnpx"),
+    "view-weights.png": ("crowns", "light", "r=2&show=dvebsph"),
+    "view-weights-space.png": ("helix", "light", "r=0"),
+    "view-box.png": ("box", "light", "r=0.42"),
+    "view-box-space.png": ("network", "light", "r=0.85"),
 }
 
 
@@ -68,13 +112,16 @@ def shoot(browser, file, scheme, address):
     return out.getvalue()
 
 
-def main():
+def main(*names):
+    shots = {name: SHOTS[name] for name in names or SHOTS}
+    wanted = {page for page, _, _ in shots.values()}
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as player:
         browser = player.chromium.launch(executable_path=executable(), args=SWITCHES)
         files = {name: Path(folder) / f"{name}.html" for name in PAGES}
-        for name, (make, title) in PAGES.items():
+        for name in wanted:
+            make, title = PAGES[name]
             make().view(files[name], title=title)
-        for name, (page, scheme, address) in SHOTS.items():
+        for name, (page, scheme, address) in shots.items():
             content = shoot(browser, files[page], scheme, address)
             if len(content) >= MOST_BYTES:
                 raise SystemExit(f"{name} has {len(content):,} bytes; show less")
@@ -84,4 +131,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

@@ -17,6 +17,7 @@ from PIL import Image
 
 import alphamesh as am
 from alphamesh.errors import (
+    DimensionError,
     FileWriteError,
     MissingLibraryError,
     ParameterError,
@@ -26,7 +27,7 @@ from alphamesh.film.gif import GifWriter, Palette
 from alphamesh.film.radii import last_radius
 from alphamesh.film.still import small_png
 from alphamesh.film.writers import need_writer
-from alphamesh.plot import GrowthView, plot_complex
+from alphamesh.plot import GrowthView, GrowthViewBox, GrowthViewBox3D, plot_complex
 
 
 @pytest.fixture(scope="module")
@@ -316,3 +317,53 @@ def test_memory_does_not_grow_with_the_number_of_frames(tmp_path):
     unit = 1 if sys.platform == "darwin" else 1024
     # Twenty-five frames of more than half a megabyte each.
     assert (many - few) * unit < 8e6
+
+
+# Periodic boxes
+
+
+BOXES = {
+    "plane": ((1, 1), False),
+    "strip": ((None, 1), True),
+    "space": ((1, 1, 1), False),
+    "slab": ((1, 1, None), True),
+}
+
+
+@pytest.mark.parametrize("name", BOXES)
+def test_films_of_periodic_boxes(name, tmp_path):
+    periods, weighted = BOXES[name]
+    rng = np.random.default_rng(3)
+    weights = rng.random(25) / 30 if weighted else None
+    cx = am.AlphaComplex(rng.random((25, len(periods))), periods=periods, weights=weights)
+    film = cx.animate(tmp_path / "box.gif", frames=3, width=200)
+    pairs = cx.persistence()
+    assert film.betti.tolist() == pairs.betti_numbers(film.radii).tolist()
+    # At the end all classes that stay have come, but for that of the whole box.
+    assert film.betti[-1, 1] == len(pairs.essential[1])
+    pictures = frames_of(film.path)
+    assert len(pictures) == 3
+    assert all(np.abs(b - a).sum() > 0 for a, b in pairwise(pictures))
+
+
+def test_films_are_made_of_filtrations_of_boxes(tmp_path):
+    cx = am.AlphaComplex([[0.1, 0.2], [0.5, 0.9]], periods=(1, 1))
+    one = am.animate(cx.filtration, tmp_path / "a.gif", radii=[0.1, 0.4], width=200)
+    two = am.animate(cx.persistence(), tmp_path / "b.gif", radii=[0.1, 0.4], width=200)
+    assert one.path.read_bytes() == two.path.read_bytes()
+    with pytest.raises(ParameterError, match="turn"):
+        cx.animate(tmp_path / "c.gif", turn=20)
+    with pytest.raises(DimensionError, match="in space"):
+        GrowthViewBox3D(cx.persistence(), (0.1, 1))
+    with pytest.raises(DimensionError, match="periodic box"):
+        GrowthViewBox(am.AlphaComplex([[0.0, 1.0]]).persistence(), (0.1, 1))
+
+
+def test_cells_of_a_film_of_a_box_are_whole(tmp_path):
+    cx = am.AlphaComplex(np.random.default_rng(4).random((40, 2)), periods=(1, 1))
+    view = GrowthViewBox(cx.persistence(), (0.01, 1.0), width=400)
+    largest = max(values.max() for values in cx.radii)
+    cells = am.restricted_voronoi(view._around, largest)
+    inner = ((view._around.points >= 0) & (view._around.points < 1)).all(axis=1)
+    assert inner.sum() == 40
+    assert cells.area[inner].sum() == pytest.approx(1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 import sys
@@ -15,8 +16,10 @@ from hypothesis import given, settings
 import alphamesh as am
 from alphamesh.errors import FileWriteError, MissingLibraryError, ParameterError
 from alphamesh.view import page_text, payload
+from alphamesh.view.boxes import box_arrays
 from alphamesh.view.bundle import bundle, style
-from alphamesh.view.packing import pack, rising_bits
+from alphamesh.view.packing import pack, rising_bits, signed_bits
+from alphamesh.view.placing import Frame, Order
 from node import SCRIPTS, STATIC, run_node
 from strategies import clouds
 
@@ -33,6 +36,24 @@ CASES = {
     "none": np.empty((0, 2)),
     "tiny": np.random.default_rng(0).random((40, 2)) * 1e-140,
     "large": np.random.default_rng(0).random((40, 2)) * 1e140,
+}
+
+
+# Points with weights: some are hidden, some come late, some are heavier than all else.
+_HEAVY = np.random.default_rng(8).lognormal(-3.2, 0.8, 120) ** 2
+WEIGHTED = {
+    "random": (np.random.default_rng(7).random((120, 2)), _HEAVY),
+    "hidden": (np.random.default_rng(7).random((60, 2)), np.repeat([0.01, -3.0], 30)),
+    "grid": (GRID, np.tile([0.25, -1.0], 10)),
+    "duplicates": (np.repeat(GRID, 2, axis=0), np.arange(40) / 32),
+    "equal": (GRID * 0.7, np.full(20, 0.3)),
+    "zero": (GRID, np.zeros(20)),
+    "negative": (CASES["random"][:40], np.linspace(-5, -1, 40)),
+    "line": (CASES["line"], np.array([0, 3, 0, 1, 1, 0.5, 9])),
+    "one": (CASES["one"], [4.0]),
+    "none": (CASES["none"], []),
+    "space": (np.random.default_rng(9).random((90, 3)), _HEAVY[:90]),
+    "one in space": ([[1.0, 2, 3]], [-4.0]),
 }
 
 
@@ -116,6 +137,167 @@ def test_the_page_counts_what_the_complex_holds_in_space(name, tmp_path):
         assert facts["border"] == pytest.approx(shape.surface_area, rel=1e-3)
 
 
+BOXES = {
+    "square": ((1, 1), 60, False),
+    "strip": ((None, 2), 30, False),
+    "weighted": ((1, 1), 50, True),
+    "two": ((1, 2), 2, False),
+    "one": ((1, 1), 1, False),
+    "cube": ((1, 1, 1), 70, False),
+    "slab": ((1, 1, None), 60, True),
+    "few": ((1, 1, 1), 2, True),
+    "flat": ((1, 1, None), 9, False),
+    "none": ((1, 1, 1), 0, False),
+}
+
+
+def box_of(name):
+    periods, count, weighted = BOXES[name]
+    rng = np.random.default_rng(11)
+    points = rng.random((count, len(periods)))
+    if name == "flat":
+        points[:, 2] = 0.5
+    weights = rng.random(count) / 20 if weighted else None
+    return am.AlphaComplex(points, periods=periods, weights=weights)
+
+
+@pytest.mark.parametrize("name", BOXES)
+def test_the_page_counts_what_a_periodic_box_holds(name, tmp_path):
+    cx = box_of(name)
+    values = np.unique(np.concatenate(cx.radii))
+    radii = np.concatenate((values[:: max(1, len(values) // 20)], values[-1:], values[-1:] + 1))
+    shown = told(cx, radii, tmp_path)
+    assert shown["words"][1:2] == ["loop"]
+    d = len(cx.periods)
+    for radius, facts in zip(radii, shown["facts"], strict=True):
+        shape = cx.at(radius)
+        assert facts["present"] == list(shape.counts.values())
+        assert [*facts["betti"], int(facts["full"])] == list(shape.betti)
+        assert facts["curves"] == facts["betti"] == list(shape.betti[:d])
+        assert facts["isolated"] == len(shape.isolated_vertices)
+        assert facts["boundary"] == len(
+            shape.boundary_edges if d == 2 else shape.boundary_triangles
+        )
+        size, border = (
+            (shape.area, shape.perimeter) if d == 2 else (shape.volume, shape.surface_area)
+        )
+        assert facts["size"] == pytest.approx(size, rel=1e-4, abs=1e-9)
+        assert facts["border"] == pytest.approx(border, rel=1e-4, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", ["square", "weighted", "cube"])
+def test_copies_of_all_that_meets_a_box_are_drawn(name, tmp_path):
+    cx = box_of(name)
+    shown = told(cx, [], tmp_path)
+    d, margin = len(cx.periods), {2: 0.5, 3: 0.0}[len(cx.periods)]
+    meta = shown["meta"]
+    places = np.array(shown["drawn"]["positions"]).reshape(-1, d) * meta["scale"]
+    places += meta["centre"]
+    for k, kind in ((1, "edges"), (2, "triangles")):
+        corners = places[np.array(shown["drawn"][kind])].reshape(-1, k + 1, d)
+        found = {tuple(sorted(map(tuple, rows))) for rows in corners.round(4).tolist()}
+        # The oracle moves all simplices by all moves, and keeps what meets the window.
+        wanted = set()
+        for move in itertools.product(range(-3, 4), repeat=d):
+            moved = cx.filtration.corners(k) + move
+            meets = (moved.max(axis=1) > -margin) & (moved.min(axis=1) < 1 + margin)
+            kept = moved[meets.all(axis=1)].round(4).tolist()
+            wanted |= {tuple(sorted(map(tuple, rows))) for rows in kept}
+        assert len(found ^ wanted) <= 0.03 * len(wanted)  # rounded to either side
+        assert len(corners) == len(found) > len(cx.simplices[k])
+
+
+@pytest.mark.parametrize("name", ["square", "weighted"])
+def test_the_cells_of_a_box_fill_it(name, tmp_path):
+    cx = box_of(name)
+    shown = told(cx, [], tmp_path)
+    areas = np.array(shown["cells"])[: len(cx.simplices[0])] * shown["meta"]["scale"] ** 2
+    # One copy of each vertex lies in the box, and its cell is whole.
+    assert areas.sum() == pytest.approx(1, rel=1e-4)
+
+
+def test_walls_cut_what_a_box_holds():
+    section = pytest.importorskip("alphamesh.plot.section")
+    cx = box_of("cube")
+    raw = zlib.decompress(packed(cx))
+    size = int.from_bytes(raw[:4], "little")
+    blocks = {b["name"]: b for b in json.loads(raw[4 : 4 + size])["arrays"]}
+    frame = Frame.of(cx.filtration, cx.simplices[0][:, 0])
+    orders = [Order.of(values) for values in cx.radii]
+    rows = np.arange(len(cx.points), dtype=np.uint32)
+    caps = box_arrays(cx.filtration, orders, frame, rows)
+    assert blocks["caps"]["length"] == len(caps["caps"]) == 9 * len(caps["cap_ranks"])
+    corners = caps["caps"].reshape(-1, 3, 3).astype(float) * frame.scale + frame.centre
+    walls = [(axis, side) for axis in range(3) for side in (0, 1)]
+    for axis, side in walls:
+        there = np.flatnonzero((np.abs(corners[:, :, axis] - side) < 1e-6).all(axis=1))
+        left = section.clipped_triangles(
+            corners[there], [_plane(k, s) for k in range(3) if k != axis for s in (0, 1)]
+        )
+        arms = left[:, 1:] - left[:, :1]
+        area = np.linalg.norm(np.cross(arms[:, 0], arms[:, 1]), axis=1).sum() / 2
+        assert area == pytest.approx(1, rel=1e-5)  # all of the wall, once
+
+
+def _plane(axis, side):
+    return (np.eye(3)[axis] * (1 if side else -1), float(side))
+
+
+def test_notebooks_tell_of_boxes():
+    told = ET.fromstring(box_of("cube")._repr_html_())
+    rows = {row[0].text: row[1].text for row in told.iter("tr")}
+    assert rows["periodic box"] == "1 x 1 x 1"
+    assert rows["loops"].isdigit()
+    assert told.find(".//strong").text == "PeriodicComplex"
+
+
+@pytest.mark.parametrize("name", WEIGHTED)
+def test_the_page_counts_what_a_complex_with_weights_holds(name, tmp_path):
+    points, weights = WEIGHTED[name]
+    cx = am.AlphaComplex(points, weights=weights)
+    changes = cx.critical_radii()
+    radii = np.unique(np.concatenate((changes, changes - 1e-9, changes[-1:] + 1)))[::7]
+    shown = told(cx, radii, tmp_path)
+    assert sorted(shown["hidden"]) == cx.hidden.tolist()
+    assert sorted(shown["rows"]) == cx.simplices[0][:, 0].tolist()
+    # The first vertex does not count as a change.
+    assert shown["changes"] == cx.persistence().betti_curve().radii[1:].tolist()
+    for radius, facts in zip(radii, shown["facts"], strict=True):
+        shape = cx.at(radius)
+        betti = cx.persistence().betti_numbers(radius).tolist()
+        assert facts["betti"] == facts["curves"] == betti
+        assert facts["present"] == [int((values <= radius).sum()) for values in cx.radii]
+        assert facts["isolated"] == len(shape.isolated_vertices)
+        size = shape.volume if len(cx.simplices) == 4 else shape.area
+        assert facts["size"] == pytest.approx(size, rel=1e-3, abs=1e-9)
+
+
+def test_the_pieces_of_power_cells_are_the_cells(tmp_path):
+    points, weights = WEIGHTED["random"]
+    cx = am.AlphaComplex(points, weights=weights)
+    shown = told(cx, [], tmp_path)
+    # At a radius that leaves no gap, cells are cut at their ridges alone.
+    whole = cx.restricted_voronoi(float(max(cx.radii[2]))).area[shown["rows"]]
+    areas = np.array(shown["cells"]) * shown["meta"]["scale"] ** 2
+    inner = ~np.isin(shown["rows"], cx.convex_hull.ring)
+    assert inner.sum() > 45
+    assert (whole[inner] > 0).all()
+    assert areas[inner] == pytest.approx(whole[inner], rel=2e-3, abs=1e-7)
+
+
+def test_radii_of_weighted_complexes_may_be_negative():
+    cx = am.AlphaComplex(*WEIGHTED["random"][:1], weights=_HEAVY)
+    pytest.importorskip("anywidget")
+    widget = cx.widget(-0.01)
+    assert widget.radius == -0.01
+    widget.radius = -0.02
+    assert widget.radius == -0.02
+    with pytest.raises(ParameterError, match="got nan"):
+        widget.radius = np.nan
+    lowest = min(values.min() for values in cx.radii)
+    assert cx.widget(-np.inf).radius == lowest < 0
+
+
 def test_the_surface_is_seen_from_outside(tmp_path):
     cx = am.AlphaComplex(SPACE["random"])
     shown = told(cx, [], tmp_path)
@@ -171,6 +353,15 @@ def test_packed_data_read_back_to_the_last_digit(points):
             bits = planes.reshape(wide, -1).T.copy().view(np.uint64).ravel()
             assert np.array_equal(np.cumsum(bits).view(np.float64), np.sort(cx.radii[1]))
     assert at == len(raw)
+
+
+def test_signed_bits_ascend():
+    values = np.array([-1.7e308, -2.0, -5e-324, -0.0, 0.0, 5e-324, 1.0, 1.7e308])
+    rising = np.cumsum(signed_bits(values).view(np.uint64))
+    assert (np.diff(rising.astype(object)) >= 0).all()
+    top = np.uint64(1 << 63)
+    bits = np.where(rising >= top, rising ^ top, ~rising)
+    assert np.array_equal(bits.view(np.float64), values)
 
 
 def test_rising_bits_of_zeros_of_either_sign():

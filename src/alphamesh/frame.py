@@ -200,7 +200,9 @@ def framed_delaunay(
             f"frame must be an alphamesh.Frame, such as Frame('circle'); got {given!r}"
         )
     cloud = as_cloud(points, 2)
-    refuse_weights(cloud.weights, "frames", "leave the frame out")
+    refuse_weights(
+        cloud.weights, "frames", "triangulate without one: AlphaComplex(points, weights=w)"
+    )
     count = len(cloud)
     frame_points = frame.around(cloud)
     everything = np.concatenate((cloud.points, frame_points))

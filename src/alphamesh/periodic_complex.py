@@ -16,6 +16,7 @@ from alphamesh.periodic import (
     periodic_persistence,
     tiled_points,
 )
+from alphamesh.shown import Shown
 
 if TYPE_CHECKING:
     import os
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
     from alphamesh._arrays import FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
+    from alphamesh.film import Film
     from alphamesh.periodic import PeriodicFiltration, PeriodicPersistence
     from alphamesh.plot import Drawing
     from alphamesh.radius import RadiusChoice
@@ -31,7 +33,7 @@ if TYPE_CHECKING:
 __all__ = ["PeriodicComplex", "periodic_complex"]
 
 
-class PeriodicComplex(Exports):
+class PeriodicComplex(Exports, Shown):
     """The alpha complex of a periodic box; what ``AlphaComplex(points, periods=...)`` returns.
 
     Notes
@@ -208,6 +210,15 @@ class PeriodicComplex(Exports):
         See :meth:`at` for the radius and :func:`alphamesh.plot.plot_periodic`.
         """
         return self.at(radius).plot(ax, **options)
+
+    def animate(self, path: str | os.PathLike[str], **options: Any) -> Film:
+        """Make a film of the growing radius.
+
+        Parameters and errors are those of :func:`alphamesh.animate`.
+        """
+        from alphamesh.film import animate
+
+        return animate(self.persistence(), path, **options)
 
     def to_gudhi(self, *, squared: bool = False) -> Any:
         """Return the complex as a ``gudhi.SimplexTree``.

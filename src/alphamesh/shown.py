@@ -65,7 +65,8 @@ class Shown:
         FileWriteError
             If it cannot be written.
         ParameterError
-            If `radius` is not a number, negative or NaN, or `title` is no text.
+            If `radius` is not a number, NaN, or negative without weights, or `title` is no
+            text.
         """
         from alphamesh.view import write_page
 

@@ -96,9 +96,6 @@ def test_boxes_can_be_plotted(boxed):
         1, "plot", "flat.csv", "--periods", "10,10", "--view", "story", "-o", "c.png"
     )
     assert "complex, diagram, barcode, betti" in message
-    assert "in space are not drawn" in refused(
-        1, "plot", "box.csv", "--periods", "10,10,10", "-o", "c.png"
-    )
     assert not Path("c.png").exists()
 
 
@@ -140,3 +137,12 @@ def test_meshes_of_boxes(boxed):
 )
 def test_meshes_of_boxes_leave_nothing_out_in_silence(boxed, arguments, said):
     assert said in refused(2, "mesh", "flat.csv", "--periods", "10,10", *arguments)
+
+
+def test_boxes_are_shown_live_drawn_in_space_and_filmed(boxed):
+    pytest.importorskip("matplotlib")
+    box = ("box.csv", "--periods", "10,10,10")
+    assert facts("view", *box, "-o", "page.html")["periods"] == [10, 10, 10]
+    assert facts("plot", *box, "-o", "box.png")["view"] == "complex"
+    film = ("--frames", "2", "--width", "200", "-o", "a.gif")
+    assert len(facts("animate", *box, *film)["radii"]) == 2

@@ -4,11 +4,13 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { Camera } from "../../src/alphamesh/view/static/camera.js";
-import { colouring } from "../../src/alphamesh/view/static/cells.js";
+import { colouring } from "../../src/alphamesh/view/static/colours.js";
 import { cofaceRanks, countUpTo, countsBelow, NEVER } from "../../src/alphamesh/view/static/complex.js";
 import { bytesOfBase64, unpack } from "../../src/alphamesh/view/static/data.js";
 import { readHash, writeHash } from "../../src/alphamesh/view/static/hash.js";
-import { locate, Picker } from "../../src/alphamesh/view/static/pick.js";
+import { frameOf, sidesInFront } from "../../src/alphamesh/view/static/frame3.js";
+import { movesOf } from "../../src/alphamesh/view/static/patch.js";
+import { locate, PatchPicker, Picker } from "../../src/alphamesh/view/static/pick.js";
 import { PlaneComplex } from "../../src/alphamesh/view/static/plane.js";
 import { Scale } from "../../src/alphamesh/view/static/scale.js";
 import {
@@ -18,8 +20,10 @@ import {
   shownUpTo,
 } from "../../src/alphamesh/view/static/steps.js";
 import { svgOf } from "../../src/alphamesh/view/static/svg.js";
+import { clipped } from "../../src/alphamesh/view/static/svg3.js";
 import { count, counted, number, readRadius, ticks } from "../../src/alphamesh/view/static/text.js";
 import { PALETTES, rgb } from "../../src/alphamesh/view/static/theme.js";
+import { areaOf } from "../../src/alphamesh/view/static/veil.js";
 
 /** Two triangles over a square from -1 to 1; the diagonal comes last. */
 function square() {
@@ -100,6 +104,94 @@ test("pointing prefers a vertex, then an edge", () => {
   assert.equal(picker.at(0, 2, 0.05), null);
 });
 
+/** Two points in a strip of width 2, and an edge between them across its border. */
+function box() {
+  const periods = [2, null];
+  const low = [-1, -1];
+  const meta = { ambient: 2, scale: 1, centre: [0, 0], extent: [1, 1], box: { periods, low, high: [1, 1] } };
+  return new PlaneComplex({
+    meta,
+    arrays: {
+      positions: new Float32Array([-0.8, 0, 0.8, 0]),
+      edges: new Uint32Array([0, 1]),
+      edge_offsets: new Uint8Array([0, 1]),
+      edge_values: new Float64Array([0.2]),
+      edge_creators: new Uint32Array([1]),
+      triangle_facets: new Uint32Array(0),
+      triangle_corners: new Uint32Array(0),
+      triangle_offsets: new Uint8Array(0),
+      triangle_values: new Float64Array(0),
+      triangle_creators: new Uint32Array(0),
+      cell_sizes: new Float32Array(0),
+      facet_sizes: new Float32Array([0.4]),
+    },
+  });
+}
+
+test("an edge across the border of a box is drawn on either side", () => {
+  const complex = box();
+  assert.ok(Math.abs(complex.edgeLength(0) - 0.4) < 1e-6);
+  const patch = complex.patch;
+  assert.ok(patch);
+  const spans = [];
+  for (let e = 0; e < patch.edgeCount; e++) {
+    const [a, b] = [2 * patch.edges[2 * e], 2 * patch.edges[2 * e + 1]];
+    spans.push([patch.positions[b], patch.positions[a]].map((x) => Math.round(10 * x) / 10));
+  }
+  // Half a period is shown on all sides.
+  assert.deepEqual(spans, [[-1.2, -0.8], [0.8, 1.2]]);
+  assert.deepEqual(complex.at(0.1).shown, [4, 0, 0]);
+  assert.deepEqual(complex.at(0.2).shown, [4, 2, 0]);
+  assert.deepEqual(complex.at(0.2).betti, [1, 0]);
+  assert.equal(complex.at(0.2).full, false);
+  const found = new PatchPicker(complex).at(-1, 0.01, 0.05);
+  assert.equal(found?.dimension, 1);
+  assert.equal(found?.value, 0.2);
+  assert.deepEqual(found?.corners.map((v) => complex.rowOfDrawn(v)).sort(), [0, 1]);
+});
+
+test("moves bring into a window what can be seen there", () => {
+  const cube = { periods: [2, null], low: [-1, -9], high: [1, 9] };
+  assert.deepEqual(movesOf([-0.5, 50], [0.5, 60], cube, 0), [[0, 0]]);
+  assert.deepEqual(movesOf([0.5, 0], [1.5, 0], cube, 0), [[-1, 0], [0, 0]]);
+  assert.deepEqual(movesOf([0, 0], [0, 0], cube, 0.5), [[-1, 0], [0, 0], [1, 0]]);
+});
+
+test("a veil lies around the box, and nowhere in open directions", () => {
+  const camera = new Camera([1, 1]);
+  camera.resize(400, 400);
+  const cube = { periods: [2, null], low: [-1, -1], high: [1, 1] };
+  const area = areaOf(cube, camera, 0);
+  assert.ok(Math.abs(area.right - area.left - 2 * camera.scale) < 1e-9);
+  assert.ok(area.top < 0 && area.bottom > 400);
+  const wider = areaOf(cube, camera, 0.15);
+  assert.ok(Math.abs(wider.right - area.right - 0.3 * camera.scale) < 1e-9);
+});
+
+test("the sides of a box in front are those with a face to the eye", () => {
+  const cube = { periods: [2, 2, 2], low: [-1, -1, -1], high: [1, 1, 1] };
+  // Above it all, only what is at the bottom is behind.
+  const front = sidesInFront(cube, [0, 0, 9]);
+  assert.equal(front.filter((side) => side).length, 4);
+  assert.equal(sidesInFront(cube, [9, 9, 9]).filter((side) => !side).length, 3);
+  const places = frameOf(cube);
+  for (let i = 0; i < 72; i += 6) {
+    const step = [0, 1, 2].map((k) => Math.abs(places[i + k] - places[i + 3 + k]));
+    assert.deepEqual(step.sort(), [0, 0, 2]);
+  }
+});
+
+test("walls cut polygons and lines", () => {
+  const walls = [
+    { normal: [1, 0, 0], offset: 1 },
+    { normal: [-1, 0, 0], offset: 1 },
+  ];
+  const line = clipped([[-3, 0, 0], [3, 0, 0]], walls, false).map((p) => p.map(Math.round));
+  assert.deepEqual(line, [[-1, 0, 0], [1, 0, 0]]);
+  assert.equal(clipped([[0, 0, 0], [2, 0, 0], [0, 2, 0]], walls, true).length, 4);
+  assert.equal(clipped([[2, 0, 0], [3, 0, 0], [2, 2, 0]], walls, true).length, 0);
+});
+
 test("neighbours have different colours", () => {
   const side = 30;
   const edges = [];
@@ -147,6 +239,17 @@ test("a scale gives back what it takes, and makes room for small radii", () => {
   assert.equal(new Scale(1, 0).power, 1);
 });
 
+test("a scale may begin below zero", () => {
+  const scale = new Scale(3, 0, -2);
+  assert.equal(scale.share(-2), 0);
+  assert.equal(scale.share(-5), 0);
+  assert.equal(scale.radius(0), -2);
+  assert.equal(scale.radius(1), 3);
+  assert.deepEqual(scale.ticks(4), [-2, 0, 2]);
+  assert.equal(number(-1.5), "−1.5");
+  assert.deepEqual(readHash("#r=-1.5", true), { radius: -1.5 });
+});
+
 test("numbers are short", () => {
   assert.deepEqual(
     [0, 1, 0.1234567, 12345.6, 1.5e7, 2e-7, Infinity].map((x) => number(x)),
@@ -162,7 +265,8 @@ test("numbers are short", () => {
 test("a radius is a number of at least 0", () => {
   const texts = ["1.5", "1,5", " 2e-3 ", "inf", "∞", "0", "-1", "", "wide", "NaN"];
   const read = [1.5, 1.5, 0.002, Infinity, Infinity, 0, null, null, null, null];
-  assert.deepEqual(texts.map(readRadius), read);
+  assert.deepEqual(texts.map((text) => readRadius(text)), read);
+  assert.deepEqual(["-1", "−0,5", "-inf"].map((text) => readRadius(text, true)), [-1, -0.5, null]);
 });
 
 test("an address gives back the state, and nonsense is left out", () => {

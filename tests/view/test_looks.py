@@ -26,6 +26,29 @@ SOLIDS = {
 }
 
 
+WEIGHTED = {
+    "crowns-small": {"radius": -1.5, "layers": "dtebsph"},
+    "crowns-cells": {"radius": 2.0, "layers": "dvph"},
+    "atoms": {"radius": -0.5, "layers": "besnpoh"},
+    "atoms-cut": {"radius": 0.5, "layers": "besnox"},
+}
+BOXES = {
+    "tile": {"radius": 0.55, "layers": "dtebsp"},
+    "tile-cells": {"radius": 0.45, "layers": "vp"},
+    "block": {"radius": 0.12, "layers": "besnp"},
+    "block-cut": {"radius": 0.12, "layers": "besnxo"},
+}
+ALL = PICTURES | SOLIDS | WEIGHTED | BOXES
+
+
+@pytest.fixture(scope="module")
+def pages(file, solid, crowns, atoms, tile, block):
+    plane = dict.fromkeys(PICTURES, file)
+    weighted = {name: atoms if name.startswith("atoms") else crowns[1] for name in WEIGHTED}
+    boxes = {name: tile[1] if name.startswith("tile") else block[1] for name in BOXES}
+    return plane | dict.fromkeys(SOLIDS, solid) | weighted | boxes
+
+
 def drawn(visit, radius, layers):
     visit.page.evaluate(
         "([r, show]) => alphamesh._restore({radius: r, layers: show})", [radius, layers]
@@ -37,17 +60,17 @@ def small(browser, file):
     return Visit(browser, file, viewport={"width": 840, "height": 480})
 
 
-@pytest.mark.parametrize("name", [*PICTURES, *SOLIDS])
-def test_pictures_look_as_they_did(name, browser, file, solid):
+@pytest.mark.parametrize("name", ALL)
+def test_pictures_look_as_they_did(name, browser, pages):
     from PIL import Image
 
     from test_pictures import MOST_OF_A_PIXEL, MOST_ON_AVERAGE, difference
 
-    page = file if name in PICTURES else solid
+    page = pages[name]
     if os.environ.get("ALPHAMESH_BASELINES") == "anew":
-        draw_baselines(browser, page, {name: (PICTURES | SOLIDS)[name]})
+        draw_baselines(browser, page, {name: ALL[name]})
     with small(browser, page) as visit, Image.open(BASELINE / f"{name}.png") as kept:
-        now = Image.fromarray(drawn(visit, **(PICTURES | SOLIDS)[name]))
+        now = Image.fromarray(drawn(visit, **ALL[name]))
         assert now.size == kept.size
         apart = difference(now, kept.convert("RGB"))
     assert apart.mean() < MOST_ON_AVERAGE
@@ -55,7 +78,7 @@ def test_pictures_look_as_they_did(name, browser, file, solid):
 
 
 def test_no_baseline_is_left_over():
-    assert {path.stem for path in BASELINE.glob("*.png")} == {*PICTURES, *SOLIDS}
+    assert {path.stem for path in BASELINE.glob("*.png")} == set(ALL)
 
 
 def draw_baselines(browser, file, pictures):

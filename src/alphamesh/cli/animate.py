@@ -11,6 +11,7 @@ from alphamesh.cli.building import Job, cloud_options, need_matplotlib, source_a
 from alphamesh.cli.command import Command, setting
 from alphamesh.cli.files import STREAM, FilmFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
+from alphamesh.cli.periods import periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.summary import length_text, number
 from alphamesh.cli.types import RadiiType
@@ -22,6 +23,7 @@ _EXAMPLES = (
     "alphamesh animate points.csv --frames 60 --width 640 -o grow.webp",
     "alphamesh animate demo:torus --points 2000 --turn 120 -o torus.gif",
     "alphamesh animate demo:target --radii 0,5,10,20,40 --fps 1 -o steps.gif",
+    "alphamesh animate atoms.csv --periods 10,10,10 --weights w -o box.gif",
 )
 
 
@@ -75,6 +77,7 @@ _EXAMPLES = (
     help="Degrees that the camera turns in the course of the film; for points in space.  "
     "[default: 60]",
 )
+@periods_option
 @cloud_options
 def command(
     source: str, films: tuple[Path, ...], radii: Any, frames: int, **options: Any

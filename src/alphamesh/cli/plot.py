@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from alphamesh._weights import refuse_weights
 from alphamesh.cli.building import (
     Job,
     cloud_options,
@@ -60,6 +61,9 @@ VIEWS: dict[str, bool] = {
     "barcode": True,
     "betti": True,
 }
+
+# Views that show a frame, whose discs are as large as those of the points.
+_FRAMED = ("frame", "outlines")
 
 # What is there to see in a periodic box.
 _IN_BOX = ("complex", "diagram", "barcode", "betti")
@@ -117,6 +121,9 @@ def command(
         in_space = job.complex.points.shape[1] == 3 and not boxed
         view = view or ("overview" if in_space else "story")
         _check_view(view, in_space)
+        if view in _FRAMED:
+            remedy = "take hull or delaunay"
+            refuse_weights(job.complex.weights, "the views frame and outlines", remedy)
         facts: dict[str, Any] = {"view": view}
         lines = {"View": view}
         choice = solid = None

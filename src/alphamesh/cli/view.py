@@ -17,6 +17,7 @@ from alphamesh.cli.building import (
 from alphamesh.cli.command import Command
 from alphamesh.cli.files import STREAM, PageFile
 from alphamesh.cli.outputs import Output, Outputs, check_targets, output_options
+from alphamesh.cli.periods import periods_option
 from alphamesh.cli.progress import Steps
 from alphamesh.cli.types import Rule
 
@@ -26,6 +27,8 @@ _EXAMPLES = (
     "alphamesh view points.csv -o page.html",
     "alphamesh view shape.png --points 2000 -o page.html --open",
     "alphamesh view demo:cheese -n 20000 --radius 4 -o cheese.html",
+    "alphamesh view trees.csv --weights crown_sq --radius 0 -o crowns.html",
+    "alphamesh view atoms.csv --periods 10,10,10 -o box.html",
 )
 
 
@@ -35,6 +38,7 @@ _EXAMPLES = (
 @click.option("--title", help="Heading of the page.  [default: the name of INPUT]")
 @click.option("--open", "opened", is_flag=True, help="Show the page in the web browser.")
 @radius_option
+@periods_option
 @cloud_options
 def command(
     source: str,

@@ -19,6 +19,7 @@ from alphamesh.film.writers import WRITERS, Reel, need_writer
 from alphamesh.filtration import Filtration
 from alphamesh.filtration3d import Filtration3D
 from alphamesh.io._atomic import atomic_path
+from alphamesh.periodic import PeriodicFiltration, PeriodicPersistence, periodic_persistence
 from alphamesh.persistence import Persistence, persistence
 
 if TYPE_CHECKING:
@@ -44,8 +45,9 @@ class Film:
     path : pathlib.Path
     radii : (k,) float64
         The radius of each frame.
-    betti : (k, 2) or (k, 3) int64
-        Components and holes in each frame; in space components, loops and voids.
+    betti : (k, 2), (k, 3) or (k, 4) int64
+        Components and holes in each frame; in space components, loops and voids; in a
+        periodic box, besides, 1 where all of it is filled.
     size : (width, height)
         In pixels.
     """
@@ -71,12 +73,13 @@ def animate(  # noqa: PLR0913 (all but two are options)
     """Make a film of a growing radius.
 
     In the plane it shows restricted Voronoi cells beside the alpha complex, in space the
-    complex, slowly turning, beside the same cut open. Each frame also tells its radius,
+    complex, slowly turning, beside the same cut open; of a periodic box what is in it and,
+    in the plane, around it. Each frame also tells its radius,
     how many components and holes there are, and where on the Betti curves it stands.
 
     Parameters
     ----------
-    source : AlphaComplex, Filtration or Persistence
+    source : AlphaComplex, PeriodicComplex, or a filtration or persistence
         In the plane or in space.
     path : path-like
         A ``.gif`` or ``.webp``, written with Pillow, or an ``.mp4``, for which the program
@@ -146,12 +149,18 @@ def animate(  # noqa: PLR0913 (all but two are options)
 def _view(pairs: Persistence, radii: FloatArray, width: int, turn: float) -> FilmView:
     """Return what draws the frames."""
     try:
-        from alphamesh.plot import GrowthView, GrowthView3D
+        from alphamesh.plot import GrowthView, GrowthView3D, GrowthViewBox, GrowthViewBox3D
     except MissingLibraryError:
         raise MissingLibraryError.of("matplotlib", "plot", "Drawing a film") from None
-    if isinstance(pairs.filtration, Filtration3D):
-        return GrowthView3D(pairs, _shown(pairs, radii), width=width, turn=turn)
-    return GrowthView(pairs, _shown(pairs, radii), width=width)
+    shown = _shown(pairs, radii)
+    space = pairs.filtration.points.shape[1] == 3
+    if isinstance(pairs, PeriodicPersistence):
+        if space:
+            return GrowthViewBox3D(pairs, shown, width=width, turn=turn)
+        return GrowthViewBox(pairs, shown, width=width)
+    if space:
+        return GrowthView3D(pairs, shown, width=width, turn=turn)
+    return GrowthView(pairs, shown, width=width)
 
 
 def _shown(pairs: Persistence, radii: FloatArray) -> tuple[float, float]:
@@ -170,14 +179,19 @@ def _shown(pairs: Persistence, radii: FloatArray) -> tuple[float, float]:
 
 
 def _persistence_of(source: Any) -> Persistence:
-    given = source if isinstance(source, Filtration | Filtration3D) else None
+    kinds = Filtration | Filtration3D | PeriodicFiltration
+    given = source if isinstance(source, kinds) else None
     filtration = getattr(source, "filtration", given)
-    if not isinstance(filtration, Filtration | Filtration3D):
+    if not isinstance(filtration, kinds):
         raise ParameterError(
             "a film needs an AlphaComplex, a Filtration or a Persistence, not "
             f"{type(source).__name__}; make one with alphamesh.AlphaComplex(points)"
         )
-    return source if isinstance(source, Persistence) else persistence(filtration)
+    if isinstance(source, Persistence):
+        return source
+    if isinstance(filtration, PeriodicFiltration):
+        return periodic_persistence(filtration)
+    return persistence(filtration)
 
 
 def _check_numbers(fps: Any, hold: Any, width: Any) -> None:
@@ -192,10 +206,10 @@ def _check_numbers(fps: Any, hold: Any, width: Any) -> None:
             )
 
 
-def _checked_turn(turn: Any, filtration: Filtration | Filtration3D) -> float:
+def _checked_turn(turn: Any, filtration: Any) -> float:
     if turn is None:
         return 60.0
-    if not isinstance(filtration, Filtration3D):
+    if filtration.points.shape[1] != 3:
         raise ParameterError("only films of clouds in space turn; leave turn out")
     if not isinstance(turn, Real) or not abs(float(turn)) <= 3600:
         raise ParameterError(f"turn must be degrees from -3600 to 3600; got {turn!r}")

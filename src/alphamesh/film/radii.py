@@ -110,7 +110,8 @@ def last_radius(persistence: Persistence) -> float:
     """Return the radius at which there is nothing more to see.
 
     Beyond it are neither a gap between components nor the hole, loop or void that lasts
-    longest, only flat simplices along the hull, whose spheres are far larger than the cloud.
+    longest, nor does a class come that stays, only flat simplices along the hull, whose
+    spheres are far larger than the cloud.
     """
     (_, joined), *holes = zip(persistence.births, persistence.deaths, strict=True)
     signed = persistence.filtration.weights is not None
@@ -118,6 +119,11 @@ def last_radius(persistence: Persistence) -> float:
     for births, filled in holes:
         if len(births):
             last = max(last, float(filled[np.argmax(filled - births)]))
+    # In a periodic box some classes come to stay: those that run around it.
+    for values, rows in zip(
+        persistence.filtration.radii[1:], persistence.essential[1:], strict=False
+    ):
+        last = max(last, float(values.take(rows).max(initial=-np.inf)))
     if signed and not np.isfinite(last):  # one component from the first point on
         return float(persistence.filtration.radii[0].max(initial=0.0))
     return 1.1 * last if last >= 0 else 0.9 * last

@@ -274,13 +274,15 @@ class PeriodicShape(Record):
         return to_meshio(self.mesh())
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Drawing:
-        """Draw the complex, the box and what crosses its border; in the plane alone.
+        """Draw the complex, the box and what crosses its border.
 
-        See :func:`alphamesh.plot.plot_periodic`.
+        See :func:`alphamesh.plot.plot_periodic` and, in space,
+        :func:`alphamesh.plot.plot_periodic_in_space`, also for `options`.
         """
-        from alphamesh.plot import plot_periodic
+        from alphamesh.plot import plot_periodic, plot_periodic_in_space
 
-        return plot_periodic(self, ax, **options)
+        draw = plot_periodic if self._d == 2 else plot_periodic_in_space
+        return draw(self, ax, **options)
 
     if not TYPE_CHECKING:
 

@@ -26,10 +26,12 @@ from alphamesh.plot.cycles import plot_cycles
 from alphamesh.plot.drawing import Drawing, plot_cloud
 from alphamesh.plot.growth import GrowthView
 from alphamesh.plot.growth3d import GrowthView3D
+from alphamesh.plot.growth_box import GrowthViewBox, GrowthViewBox3D
 from alphamesh.plot.outlines import plot_frame, plot_hull
 from alphamesh.plot.overview import plot_overview
 from alphamesh.plot.overview3d import plot_cloud_in_space
 from alphamesh.plot.periodic import plot_periodic
+from alphamesh.plot.periodic3d import plot_periodic_in_space
 from alphamesh.plot.render import FIGURE_FORMATS, figure_bytes
 from alphamesh.plot.solids import plot_solid, plot_surface
 from alphamesh.plot.steps import plot_outlines, plot_radii, three_radii
@@ -43,6 +45,8 @@ __all__ = [
     "Drawing",
     "GrowthView",
     "GrowthView3D",
+    "GrowthViewBox",
+    "GrowthViewBox3D",
     "cell_coloring",
     "figure_bytes",
     "plot_balls",
@@ -60,6 +64,7 @@ __all__ = [
     "plot_outlines",
     "plot_overview",
     "plot_periodic",
+    "plot_periodic_in_space",
     "plot_radii",
     "plot_restricted_voronoi",
     "plot_solid",

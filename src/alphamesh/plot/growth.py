@@ -17,14 +17,16 @@ from alphamesh.plot.chart import Chart
 from alphamesh.plot.complexes import add_complex
 from alphamesh.plot.drawing import Canvas, new_figure
 from alphamesh.plot.style import COLORS, frame
-from alphamesh.plot.topology import add_betti_curves, betti_text
+from alphamesh.plot.topology import add_betti_curves, classes_text
 from alphamesh.restricted import restricted_voronoi
 from alphamesh.shape import AlphaShape
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["FilmView", "GrowthView"]
+    from alphamesh.periodic import PeriodicFiltration
+
+__all__ = ["FilmView", "GrowthView", "farthest"]
 
 # Inches: the width of the figure, of its margins, and the heights of what is written and
 # of the Betti curves.
@@ -95,8 +97,8 @@ class FilmView:
         self._draw(radius, along)
         low, high = self._mark.axes.get_xlim() if self._mark.axes else (0.0, 1.0)
         self._mark.set_xdata([min(max(radius, low), high)] * 2)
-        numbers = self._persistence.betti_numbers(radius).tolist()
-        self._text.set_text(f"r = {_rounded(radius, high)}    {betti_text(*numbers)}")
+        classes = classes_text(self._persistence, radius)
+        self._text.set_text(f"r = {_rounded(radius, high)}    {classes}")
         drawn: Any = self._figure.canvas
         drawn.draw()
         return np.asarray(drawn.buffer_rgba())[:, :, :3].copy()
@@ -128,7 +130,7 @@ class GrowthView(FilmView):
         points = self._filtration.points
         edges = self._filtration.simplices[1]
         self._coloring = cell_coloring(len(points), edges)
-        self._reach = _farthest(self._filtration, radii[1])
+        self._reach = farthest(self._filtration, radii[1])
         cells = "Voronoi" if self._filtration.weights is None else "Power"
         titles = f"{cells} cells within r", "Alpha complex at r"
         super().__init__(persistence, radii, titles, _slope(points, self._reach), width)
@@ -144,7 +146,7 @@ class GrowthView(FilmView):
         add_complex(Canvas(self._filtration.points, right, reach=self._reach), shape)
 
 
-def _farthest(filtration: Filtration, radius: float) -> float:
+def farthest(filtration: Filtration | PeriodicFiltration, radius: float) -> float:
     """Return the radius of the largest disc at a radius."""
     if filtration.weights is None:
         return radius

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.patches import Rectangle
@@ -11,15 +11,15 @@ from matplotlib.patches import Rectangle
 from alphamesh.errors import DimensionError, ParameterError
 from alphamesh.plot.drawing import Canvas, Drawing
 from alphamesh.plot.paths import line_paths, triangle_paths
-from alphamesh.plot.style import COLORS, LAYERS
+from alphamesh.plot.style import COLORS, LAYERS, sizes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from alphamesh.periodic import PeriodicShape
+    from alphamesh.periodic import PeriodicFiltration, PeriodicShape
 
-__all__ = ["plot_periodic"]
+__all__ = ["Copies", "add_box", "add_simplices", "box_window", "plot_periodic"]
 
 _VEIL = 0.62
 _BOX_WIDTH = 1.1
@@ -55,26 +55,25 @@ def plot_periodic(
     """
     if shape.points.shape[1] != 2:
         raise DimensionError(
-            "periodic boxes in space are not drawn; look at corners(2) or corners(3) of the "
-            "shape, which are in one piece across borders"
+            "these points lie in space; draw them with alphamesh.plot.plot_periodic_in_space"
         )
     if not 0 <= margin <= 1:
         raise ParameterError(f"margin must be a share of the period, 0 to 1; got {margin!r}")
-    low, high = _box(shape)
-    beyond = margin * shape.filtration.lattice
-    window = np.array([low - beyond, high + beyond])
+    filtration = shape.filtration
+    window = box_window(filtration, margin)
     canvas = Canvas(window, ax)
-    copies = _Copies(shape, window)
-    _add_simplices(canvas, shape, copies)
-    _add_box(canvas, shape, low, high)
+    copies = Copies(filtration, window)
+    canvas.sizes = sizes(copies.of(0, np.arange(len(filtration.simplices[0])))[:, 0], canvas.ax)
+    add_simplices(canvas, shape, copies)
+    add_box(canvas, filtration)
     return canvas.drawing()
 
 
-class _Copies:
+class Copies:
     """Copies of simplices that are seen in a window."""
 
-    def __init__(self, shape: PeriodicShape, window: NDArray[np.float64]) -> None:
-        self.filtration = shape.filtration
+    def __init__(self, filtration: PeriodicFiltration, window: NDArray[np.float64]) -> None:
+        self.filtration = filtration
         self.window = window
         steps = [(0,) if side is None else (-1, 0, 1) for side in self.filtration.periods]
         self.moves = np.array(list(itertools.product(*steps))) * self.filtration.lattice
@@ -92,17 +91,22 @@ class _Copies:
         return np.concatenate(parts)
 
 
-def _box(shape: PeriodicShape) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the corners of the box; where it is open, of the points."""
-    periodic, positions = shape.filtration.periodic, shape.filtration.positions
-    if len(positions) == 0:
-        return np.zeros(2), np.where(periodic, shape.filtration.lattice, 1.0)
-    low = np.where(periodic, 0.0, positions.min(axis=0))
-    high = np.where(periodic, shape.filtration.lattice, positions.max(axis=0))
-    return low, high
+def box_window(filtration: PeriodicFiltration, margin: float) -> NDArray[np.float64]:
+    """Return the corners of the box, larger by a share of its periods, ``(2, 2)``.
+
+    Where it is open, those of the points.
+    """
+    periodic, positions = filtration.periodic, filtration.positions
+    low, high = np.zeros(2), np.where(periodic, filtration.lattice, 1.0)
+    if len(positions):
+        low = np.where(periodic, 0.0, positions.min(axis=0))
+        high = np.where(periodic, filtration.lattice, positions.max(axis=0))
+    beyond = margin * filtration.lattice
+    return np.array([low - beyond, high + beyond])
 
 
-def _add_simplices(canvas: Canvas, shape: PeriodicShape, copies: _Copies) -> None:
+def add_simplices(canvas: Canvas, shape: PeriodicShape, copies: Copies) -> None:
+    """Add all copies of simplices that are seen."""
     numbers = shape.numbers(2)
     corners = copies.of(2, numbers)
     arms = corners[:, 1:] - corners[:, :1]
@@ -136,12 +140,13 @@ def _add_simplices(canvas: Canvas, shape: PeriodicShape, copies: _Copies) -> Non
             canvas.markers(role, slice(None), diameter)
 
 
-def _add_box(canvas: Canvas, shape: PeriodicShape, low: Any, high: Any) -> None:
+def add_box(canvas: Canvas, filtration: PeriodicFiltration) -> None:
     """Draw a veil over what lies beyond the box, and its frame."""
     axes = canvas.ax
+    low, high = box_window(filtration, 0.0)
     left, right = axes.get_xlim()
     bottom, top = axes.get_ylim()
-    periodic = shape.filtration.periodic
+    periodic = filtration.periodic
     if not periodic[0]:
         low, high = np.array([left, low[1]]), np.array([right, high[1]])
     if not periodic[1]:

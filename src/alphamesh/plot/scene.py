@@ -91,6 +91,12 @@ class Camera:
         radius = float(np.linalg.norm(points - centre, axis=1).max(initial=0.0)) or 1.0
         return cls(centre, radius, np.stack((right, np.cross(towards, right), towards)))
 
+    @property
+    def eye(self) -> FloatArray:
+        """Where the camera is."""
+        place: FloatArray = self.centre + _DISTANCE * self.radius * self.axes[2]
+        return place
+
     def seen(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return where points are in the picture, and how near, over the scene's radius."""
         across, up, near = ((points - self.centre) / self.radius @ self.axes.T).T
@@ -168,14 +174,24 @@ class Scene:
         self._add(flat, near, faces, lines, width)
 
     def segments(
-        self, edges: IntArray, color: str, width: float, *, on_top: bool = False
+        self,
+        edges: IntArray,
+        color: str,
+        width: float,
+        *,
+        on_top: bool = False,
+        lift: float = 0.0,
     ) -> None:
-        """Add edges as lines of `width` (1/72 inch), `on_top` of faces that they lie in."""
-        near = self._near[edges].mean(axis=1) + (_LIFT if on_top else 0.0)
+        """Add edges as lines of `width` (1/72 inch), `on_top` of faces that they lie in.
+
+        They are taken for nearer by `lift`, in radii of the scene.
+        """
+        near = self._near[edges].mean(axis=1)
         colors = np.column_stack(
             (hazed(np.tile(to_rgb(color), (len(edges), 1)), near), np.ones(len(edges)))
         )
-        self._add(self._flat[edges[:, [0, 1, 1]]], near, colors, colors, width)
+        nearer = near + (_LIFT if on_top else 0.0) + lift
+        self._add(self._flat[edges[:, [0, 1, 1]]], nearer, colors, colors, width)
 
     def dots(self, rows: IntArray, color: str, diameter: float) -> None:
         """Add points as dots, `diameter` in radii of the scene."""

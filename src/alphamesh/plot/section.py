@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from alphamesh._arrays import FloatArray, IntArray
 
-__all__ = ["Section", "cut_open"]
+__all__ = ["Plane", "Section", "block_of", "clipped_lines", "clipped_triangles", "cut_open"]
+
+# A normal, and its product with points of the plane: what is above is taken away.
+Plane: TypeAlias = "tuple[FloatArray, float]"
 
 
 class Section(NamedTuple):
@@ -81,6 +86,74 @@ def cut_open(
     turned = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) @ normal < 0
     flesh[turned] = flesh[turned][:, [0, 2, 1]]
     return Section(everything, skin, flesh, lines)
+
+
+def block_of(
+    points: FloatArray, boundary: IntArray, tetrahedra: IntArray, planes: Sequence[Plane]
+) -> tuple[FloatArray, IntArray, list[IntArray], IntArray]:
+    """Take away all of a solid that is above one of several planes.
+
+    Parameters
+    ----------
+    points, boundary, tetrahedra
+        See :func:`cut_open`.
+    planes : sequence of Plane
+
+    Returns
+    -------
+    points : (m, 3) float64
+    skin : (a, 3) int32
+        What is left of the boundary.
+    flesh : list of (b, 3) int32
+        What is left of the cut by each of the planes.
+    lines : (c, 2) int32
+        See :class:`Section`.
+    """
+    skin, parts, lines = boundary, [], []
+    for normal, offset in planes:
+        points, skin, flesh, sides = cut_open(points, skin, tetrahedra, normal, offset)
+        parts.append(flesh)
+        lines.append(sides)
+    for number, (normal, offset) in enumerate(planes):
+        found = _Points(points, points @ normal - offset)
+        others = [k for k in range(len(planes)) if k != number]
+        for k in others:
+            parts[k] = _clipped(found, parts[k])
+            lines[k] = _shortened(found, lines[k])
+        points = found.all()
+    return points, skin, parts, np.concatenate([np.empty((0, 2), dtype=np.int32), *lines])
+
+
+def clipped_triangles(corners: FloatArray, planes: Sequence[Plane]) -> FloatArray:
+    """Return what is left of triangles below planes, ``(k, 3, 3)``."""
+    return _below(corners, planes, _clipped)
+
+
+def clipped_lines(ends: FloatArray, planes: Sequence[Plane]) -> FloatArray:
+    """Return what is left of lines below planes, ``(k, 2, 3)``."""
+    return _below(ends, planes, _shortened)
+
+
+def _below(
+    corners: FloatArray, planes: Sequence[Plane], clip: Callable[[_Points, IntArray], IntArray]
+) -> FloatArray:
+    size = corners.shape[1]
+    for normal, offset in planes:
+        points = corners.reshape(-1, 3)
+        found = _Points(points, points @ normal - offset)
+        left = clip(found, np.arange(len(points), dtype=np.int32).reshape(-1, size))
+        corners = found.all()[left]
+    return corners
+
+
+def _shortened(found: _Points, lines: IntArray) -> IntArray:
+    """Return what is left of lines below the plane."""
+    up = found.heights[lines] > 0
+    crossing = up.sum(axis=1) == 1
+    one, two = lines[crossing].T
+    high, low = np.where(up[crossing, 0], (one, two), (two, one))
+    cut = np.column_stack((found.between(high, low), low))
+    return np.concatenate((lines[~up.any(axis=1)], cut)).astype(np.int32)
 
 
 def _sorted_up(found: _Points, simplices: IntArray, above: int) -> IntArray:

@@ -19,7 +19,15 @@ if TYPE_CHECKING:
     from alphamesh.plot.drawing import Drawing
     from alphamesh.surface import Surface
 
-__all__ = ["VIEW", "cutting_plane", "into_opening", "plot_solid", "plot_surface", "solid_scene"]
+__all__ = [
+    "VIEW",
+    "cutting_plane",
+    "edge_width",
+    "into_opening",
+    "plot_solid",
+    "plot_surface",
+    "solid_scene",
+]
 
 # From the front, a little from above and from the right.
 VIEW = (24.0, -58.0)
@@ -55,7 +63,7 @@ def plot_surface(
         If `view` is not two numbers.
     """
     scene = Scene(surface.points, Camera.at(surface.points, view))
-    width = _edge_width(len(surface.triangles))
+    width = edge_width(len(surface.triangles))
     scene.triangles(surface.triangles, COLORS["skin"], edge_width=width)
     return scene.draw(ax)
 
@@ -123,7 +131,7 @@ def _closed(shape: BoundedShape, camera: Camera) -> Scene:
     """Return a scene of the surface as it is."""
     scene = Scene(shape.points, camera)
     triangles = shape.boundary_triangles
-    scene.triangles(triangles, COLORS["skin"], edge_width=_edge_width(len(triangles)))
+    scene.triangles(triangles, COLORS["skin"], edge_width=edge_width(len(triangles)))
     return scene
 
 
@@ -131,7 +139,7 @@ def _opened(shape: BoundedShape, camera: Camera, plane: tuple[FloatArray, float]
     """Return a scene of what is behind the plane, and of the cut."""
     section = cut_open(shape.points, shape.boundary_triangles, shape.tetrahedra, *plane)
     scene = Scene(section.points, camera)
-    width = _edge_width(len(section.skin))
+    width = edge_width(len(section.skin))
     scene.triangles(section.skin, COLORS["skin"], edge_width=width)
     scene.triangles(section.flesh, COLORS["flesh"], edge_width=0.0, lit=False)
     if len(section.lines) < _FINE_UNTIL:
@@ -146,7 +154,7 @@ def _add_singular(
     points = shape.points
     lone = shape.singular_triangles
     lone = lone[_kept(points, lone, plane)]
-    width = _edge_width(len(lone))
+    width = edge_width(len(lone))
     scene.triangles(
         lone, COLORS["films"], edge_width=width, two_sided=True, opacity=0.7, smooth=False
     )
@@ -158,7 +166,8 @@ def _add_singular(
     scene.dots(alone, COLORS["isolated_vertices"], 0.025 if len(alone) < _CROWD else 0.012)
 
 
-def _edge_width(count: int) -> float:
+def edge_width(count: int) -> float:
+    """Return how wide edges are drawn among so many triangles, in 1/72 inch; 0 for none."""
     return 0.35 if count < _EDGES_UNTIL else 0.2 if count < _FINE_UNTIL else 0.0
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from alphamesh._weights import has_weights
+from alphamesh._weights import has_weights, refuse_weights
 from alphamesh.betti import checked_radii
 from alphamesh.errors import ParameterError
 from alphamesh.frame import framed_delaunay
@@ -49,10 +49,18 @@ def plot_outlines(
     -------
     matplotlib.figure.Figure
         A new figure with three axes.
+
+    Raises
+    ------
+    UnweightedOnlyError
+        If the points have weights.
     """
     filtration = filtration_of(source)
+    refuse_weights(
+        filtration.weights, "outlines within a frame", "use plot_hull and plot_delaunay"
+    )
     if framed is None:
-        framed = framed_delaunay(Cloud(filtration.points, weights=filtration.weights))
+        framed = framed_delaunay(Cloud(filtration.points))
     hull = convex_hull(filtration.points)
     figure, (left, middle, right) = panels(filtration.points, 3)
     plot_hull(hull, left)

@@ -24,6 +24,7 @@ __all__ = [
     "add_betti_curves",
     "betti_range",
     "betti_text",
+    "classes_text",
     "plot_barcode",
     "plot_betti",
     "plot_diagram",
@@ -241,12 +242,13 @@ def _mark(
     chart.line("radius", [marked, marked], [0, top], 1.2)
     linear = persistence.filtration.weights is not None
     left = 2 * marked < low + high if linear else marked * marked < low * high
-    text = f"r = {radius:.4g}: {_marked_text(persistence, radius)}"
+    text = f"r = {radius:.4g}: {classes_text(persistence, radius)}"
     offset, align = ((4, -26), "left") if left else ((-4, -26), "right")
     chart.note(text, (marked, top), offset, align, "radius")
 
 
-def _marked_text(persistence: Persistence, radius: float) -> str:
+def classes_text(persistence: Persistence, radius: float) -> str:
+    """Return how many classes there are at a radius, in words."""
     roles = _roles(persistence)
     return _counts_text(persistence.betti_numbers(radius).tolist(), roles)
 

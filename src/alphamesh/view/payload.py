@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alphamesh._weights import refuse_weights
 from alphamesh.betti import checked_radii
 from alphamesh.delaunay3d import outward_triangles
 from alphamesh.errors import ParameterError
+from alphamesh.filtration import Filtration
 from alphamesh.filtration3d import Filtration3D
-from alphamesh.view.packing import pack, rising_bits
+from alphamesh.periodic import PeriodicFiltration
+from alphamesh.view.boxes import box_arrays, box_facts
+from alphamesh.view.packing import pack, rising_bits, signed_bits
+from alphamesh.view.placing import BoxOrFree, Frame, Order, places_of
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import FloatArray, IntArray
-    from alphamesh.filtration import AnyFiltration
+    from alphamesh._arrays import IntArray
     from alphamesh.persistence import Persistence
     from alphamesh.radius import RadiusChoice
 
@@ -25,21 +26,6 @@ __all__ = ["first_radius", "payload"]
 _TITLE = "Alpha complex"
 _NAMES = ("vertex", "edge", "triangle", "tetrahedron")
 _NONE = np.iinfo(np.uint32).max
-
-
-@dataclass(frozen=True, slots=True)
-class _Order:
-    """Simplices by filtration value: which comes when, and when comes which."""
-
-    order: np.ndarray[Any, np.dtype[np.intp]]
-    rank: np.ndarray[Any, np.dtype[np.uint32]]
-
-    @classmethod
-    def of(cls, radii: FloatArray) -> _Order:
-        order = np.argsort(radii, kind="stable")
-        rank = np.empty(len(order), dtype=np.uint32)
-        rank[order] = np.arange(len(order), dtype=np.uint32)
-        return cls(order, rank)
 
 
 def payload(
@@ -65,66 +51,92 @@ def payload(
     ------
     ParameterError
         If `radius` or `title` is not what it must be.
-    UnweightedOnlyError
-        If the points have weights.
     """
     if title is not None and not isinstance(title, str):
         raise ParameterError(f"title must be text; got {title!r}")
-    filtration = persistence.filtration
-    refuse_weights(
-        filtration.weights, "interactive views", "draw pictures with cx.at(radius).plot()"
-    )
-    positions, placing = _positions(filtration)
+    filtration: BoxOrFree = persistence.filtration
+    orders = [Order.of(radii) for radii in filtration.radii]
+    rows = filtration.simplices[0][:, 0].take(orders[0].order)
+    frame = Frame.of(filtration, rows)
     meta = {
         "title": title or _TITLE,
         "ambient": filtration.points.shape[1],
-        **placing,
+        "signed": filtration.weights is not None,
+        "centre": frame.centre.tolist(),
+        "scale": frame.scale,
+        "extent": frame.extent.tolist(),
+        "box": box_facts(filtration, frame)
+        if isinstance(filtration, PeriodicFiltration)
+        else None,
         "radius": first_radius(filtration, choice, radius),
         "choice": None if choice is None else _choice(choice),
     }
-    return pack(meta, {"positions": positions, **_arrays(persistence)})
+    arrays = {
+        "positions": frame.placed(places_of(filtration).take(rows, axis=0)),
+        **_arrays(persistence, orders, rows, frame),
+        **_balls(filtration, frame, rows),
+    }
+    return pack(meta, arrays)
 
 
-def _positions(filtration: AnyFiltration) -> tuple[np.ndarray[Any, Any], dict[str, Any]]:
-    """Return the distinct points, moved and scaled into a square, or a cube, from -1 to 1."""
-    points = filtration.points.take(filtration.simplices[0][:, 0], axis=0)
-    if len(points) == 0:
-        low = high = np.zeros(points.shape[1])
-    else:
-        low, high = points.min(axis=0), points.max(axis=0)
-    centre, half = low / 2 + high / 2, high / 2 - low / 2
-    scale = float(half.max()) or 1.0
-    placed = ((points - centre) / scale).astype(np.float32)
-    extent = (half / scale).tolist()
-    return placed.ravel(), {"centre": centre.tolist(), "scale": scale, "extent": extent}
+def _balls(
+    filtration: BoxOrFree, frame: Frame, rows: IntArray
+) -> dict[str, np.ndarray[Any, Any]]:
+    """Return the weights of vertices, and the points that are hidden."""
+    if filtration.weights is None:
+        return {}
+    weights = filtration.weights.take(rows) / frame.scale / frame.scale
+    limit = float(np.finfo(np.float32).max)
+    arrays = {"weights": np.clip(weights, -limit, limit).astype(np.float32)}
+    if len(filtration.hidden):
+        arrays["hidden"] = filtration.hidden.astype(np.uint32)
+        places = places_of(filtration).take(filtration.hidden, axis=0)
+        arrays["hidden_positions"] = frame.placed(places)
+    return arrays
 
 
-def _arrays(persistence: Persistence) -> dict[str, np.ndarray[Any, Any]]:
-    """Return the simplices, each told by its facets; corners follow from edges."""
-    filtration = persistence.filtration
-    rows = filtration.simplices[0]
-    orders = [_Order.of(radii) for radii in filtration.radii]
+def _arrays(
+    persistence: Persistence, orders: list[Order], rows: IntArray, frame: Frame
+) -> dict[str, np.ndarray[Any, Any]]:
+    """Return the simplices, each told by its facets; corners follow from edges.
+
+    Vertices are numbered in the order in which they come. In a box corners are told, too.
+    """
+    filtration: BoxOrFree = persistence.filtration
+    signed, boxed = filtration.weights is not None, isinstance(filtration, PeriodicFiltration)
+    vertices = np.empty(len(filtration.points), dtype=np.uint32)
+    vertices[rows] = np.arange(len(rows), dtype=np.uint32)
     edges = filtration.simplices[1].take(orders[1].order, axis=0)
-    arrays: dict[str, np.ndarray[Any, Any]] = {"edges": _numbered(edges, rows[:, 0]).ravel()}
+    arrays: dict[str, np.ndarray[Any, Any]] = {"edges": vertices.take(edges).ravel()}
     facets = {2: filtration.triangle_edges}
-    if isinstance(filtration, Filtration3D):
+    if not isinstance(filtration, Filtration) and len(orders) == 4:
         facets[3] = filtration.tetrahedron_triangles
+    bits = signed_bits if signed else rising_bits
     for k, name in enumerate(_NAMES[: len(orders)]):
-        arrays[f"{name}_values"] = rising_bits(filtration.radii[k].take(orders[k].order))
+        arrays[f"{name}_values"] = bits(filtration.radii[k].take(orders[k].order))
         if k in facets:
             faces = facets[k].take(orders[k].order, axis=0)
             arrays[f"{name}_facets"] = orders[k - 1].rank.take(faces).ravel()
-            creators = np.full(len(faces), _NONE, dtype=np.uint32)
-            pairs = persistence.pairs[k - 1]
-            ends = orders[k].rank.take(pairs[:, 1])
-            creators[ends] = orders[k - 1].rank.take(pairs[:, 0])
-            arrays[f"{name}_creators"] = creators
+        if k in facets or (k == 1 and (signed or boxed)):
+            arrays[f"{name}_creators"] = _creators(
+                persistence.pairs[k - 1], *orders[k - 1 : k + 1]
+            )
     if isinstance(filtration, Filtration3D):
         arrays["triangle_turned"] = _turned(filtration, orders[3].rank)[orders[2].order]
-    del arrays["vertex_values"]  # all of them come at 0
-    if len(rows) < len(filtration.points):
-        arrays["rows"] = rows[:, 0].astype(np.uint32)
+    if isinstance(filtration, PeriodicFiltration):
+        arrays |= box_arrays(filtration, orders, frame, vertices)
+    if not signed:
+        del arrays["vertex_values"]  # all of them come at 0
+    if not np.array_equal(rows, np.arange(len(filtration.points))):
+        arrays["rows"] = rows.astype(np.uint32)
     return arrays
+
+
+def _creators(pairs: IntArray, below: Order, here: Order) -> np.ndarray[Any, Any]:
+    """Return which simplex began the class that each simplex ends."""
+    creators = np.full(len(here.rank), _NONE, dtype=np.uint32)
+    creators[here.rank.take(pairs[:, 1])] = below.rank.take(pairs[:, 0])
+    return creators
 
 
 def _turned(
@@ -144,22 +156,20 @@ def _turned(
     return turned
 
 
-def _numbered(simplices: IntArray, rows: IntArray) -> np.ndarray[Any, np.dtype[np.uint32]]:
-    """Return rows of points as numbers of distinct points."""
-    if len(rows) and int(rows[-1]) == len(rows) - 1:
-        return simplices.astype(np.uint32)
-    return np.searchsorted(rows, simplices).astype(np.uint32)
-
-
 def first_radius(
-    filtration: AnyFiltration, choice: RadiusChoice | None, radius: float | None
+    filtration: BoxOrFree, choice: RadiusChoice | None, radius: float | None
 ) -> float:
     """Return the radius that is shown first: finite, whatever is given."""
     if radius is None:
         return 0.0 if choice is None else choice.radius
-    value = float(checked_radii(radius).reshape(()))
-    greatest = max((float(radii.max(initial=0.0)) for radii in filtration.radii), default=0.0)
-    return value if np.isfinite(value) else greatest
+    signed = filtration.weights is not None
+    value = float(checked_radii(radius, signed=signed).reshape(()))
+    if np.isfinite(value):
+        return value
+    values = np.concatenate(filtration.radii)
+    if len(values) == 0:
+        return 0.0
+    return float(values.max() if value > 0 else values.min())
 
 
 def _choice(choice: RadiusChoice) -> dict[str, Any]:

@@ -54,7 +54,8 @@ def make_widget(
         raise ParameterError(f"height must be a whole number of at least 200; got {height!r}")
     packed = payload(persistence, choice, radius=radius, title=title)
     first = first_radius(persistence.filtration, choice, radius)
-    return _widget_class()(data=packed, radius=first, height=f"{height}px")
+    signed = persistence.filtration.weights is not None
+    return _widget_class()(data=packed, signed=signed, radius=first, height=f"{height}px")
 
 
 @cache
@@ -71,11 +72,13 @@ def _widget_class() -> Any:
         _esm = bundle("widget.js") + _EXPORT
         _css = style()
         data = traitlets.Bytes().tag(sync=True)
+        signed = traitlets.Bool()
         radius = traitlets.Float().tag(sync=True)
         height = traitlets.Unicode().tag(sync=True)
 
         @traitlets.validate("radius")
         def _check(self, proposal: Any) -> float:
-            return float(checked_radii(proposal["value"]).reshape(()))
+            checked = checked_radii(proposal["value"], signed=self.signed)
+            return float(checked.reshape(()))
 
     return ComplexWidget

@@ -8,10 +8,10 @@ import { Panel } from "./panel.js";
 import { Scale } from "./scale.js";
 import { Stage } from "./stage.js";
 import { BettiCurve, changesOf, neighbouringChange, shownUpTo } from "./steps.js";
-import { count } from "./text.js";
+import { counted } from "./text.js";
 import { PALETTES } from "./theme.js";
 
-/** Seconds from 0 to the end of the slider. */
+/** Seconds from one end of the slider to the other. */
 const PLAYING_TIME = 14;
 
 /**
@@ -35,7 +35,7 @@ export class View {
     this.meta = payload.meta;
     this.complex = complexOf(payload);
     this.curves = this.complex.diagrams.map((/** @type {Diagram} */ d) => new BettiCurve(d));
-    this.changes = changesOf(this.curves);
+    this.changes = changesOf(this.curves, this.complex.first);
     this.scale = scaleOf(this.complex, this.changes, this.meta.choice?.radius ?? 0);
     this.radius = options.saved?.radius ?? this.meta.radius ?? 0;
     this.facts = this.complex.at(this.radius);
@@ -61,9 +61,10 @@ export class View {
       set,
       play: () => this.togglePlay(),
       jump: (direction) => this.jump(direction),
+      signed: this.complex.signed,
     });
     this.panel = new Panel(this.picture.layers, this.charts, {
-      ambient: this.complex.ambient,
+      words: this.complex.words,
       reason: choice?.reason ?? null,
       toggle: (key) => this.toggle(key),
     });
@@ -87,7 +88,7 @@ export class View {
 
   _build() {
     const heading = element("h1", {}, this.meta.title);
-    const size = element("p", { class: "size" }, `${count(this.complex.vertexCount)} points`);
+    const size = element("p", { class: "size" }, sizeText(this.complex));
     this.root.classList.add("alphamesh-view");
     this.root.classList.toggle("space", this.complex.ambient === 3);
     this.root.replaceChildren(
@@ -125,7 +126,7 @@ export class View {
    */
   setRadius(radius, byUser = false) {
     if (byUser && this.playing) this.togglePlay();
-    this.radius = Math.max(0, radius);
+    this.radius = this.complex.signed ? radius : Math.max(0, radius);
     this.facts = this.complex.at(this.radius);
     this.options.onradius?.(this.radius);
     this.redraw();
@@ -136,7 +137,7 @@ export class View {
   jump(way) {
     const radius = neighbouringChange(this.changes, this.radius, way);
     if (radius !== null) this.setRadius(radius, true);
-    else if (way < 0) this.setRadius(0, true);
+    else if (way < 0) this.setRadius(this.scale.low, true);
   }
 
   togglePlay() {
@@ -339,8 +340,17 @@ export class View {
  */
 function scaleOf(complex, changes, chosen) {
   const lasts = complex.values.map((/** @type {Float64Array} */ v) => v[v.length - 1] ?? 0);
-  const last = changes.length ? changes[changes.length - 1] : 0;
-  return new Scale(shownUpTo(last, Math.max(0, ...lasts), chosen), chosen);
+  const low = complex.first;
+  const last = changes.length ? changes[changes.length - 1] : low;
+  const end = shownUpTo(last - low, Math.max(low, ...lasts) - low, chosen - low);
+  return new Scale(low + end, chosen, low);
+}
+
+/** How many points there are. @param {any} complex */
+function sizeText({ vertexCount, hidden }) {
+  const more = hidden.rows.length;
+  const besides = more ? `, ${counted(more, "hidden point")} besides` : "";
+  return `${counted(vertexCount, "point")}${besides}`;
 }
 
 /** @param {string} title */

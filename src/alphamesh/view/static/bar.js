@@ -12,7 +12,7 @@ export class Bar {
    * @param {import("./scale.js").Scale} scale
    * @param {{low: number, high: number | null, radius: number} | null} choice
    * @param {{radius: () => number, set: (radius: number) => void, play: () => void,
-   *          jump: (direction: 1 | -1) => void}} app
+   *          jump: (direction: 1 | -1) => void, signed: boolean}} app
    */
   constructor(scale, choice, app) {
     this.scale = scale;
@@ -78,7 +78,7 @@ export class Bar {
       ArrowDown: () => this.app.set(this.scale.radius(share - step)),
       PageUp: () => this.app.jump(1),
       PageDown: () => this.app.jump(-1),
-      Home: () => this.app.set(0),
+      Home: () => this.app.set(this.scale.low),
       End: () => this.app.set(this.scale.limit),
     };
     if (!(event.key in keys) || event.altKey || event.ctrlKey || event.metaKey) return;
@@ -88,7 +88,7 @@ export class Bar {
   }
 
   _enter() {
-    const radius = readRadius(this.entry.value);
+    const radius = readRadius(this.entry.value, this.app.signed);
     this.entry.setAttribute("aria-invalid", String(radius === null));
     if (radius !== null) this.app.set(radius);
   }
@@ -110,7 +110,7 @@ export class Bar {
 
   /** @param {number} radius */
   _edited(radius) {
-    return readRadius(this.entry.value) === radius;
+    return readRadius(this.entry.value, this.app.signed) === radius;
   }
 
   /** @param {boolean} playing */

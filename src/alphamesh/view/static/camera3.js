@@ -73,6 +73,12 @@ export class Camera3 {
     return (1.08 * this.reach) / Math.sin(HALF) / this.zoom;
   }
 
+  /** Where the viewer is. @returns {number[]} */
+  get eye() {
+    const [right, up, back] = this.axes;
+    return [0, 1, 2].map((i) => right[i] * this.x + up[i] * this.y + back[i] * this.distance);
+  }
+
   /** Right, up and towards the viewer. @returns {[Vector, Vector, Vector]} */
   get axes() {
     const [cy, sy] = [Math.cos(this.yaw), Math.sin(this.yaw)];
@@ -112,10 +118,8 @@ export class Camera3 {
     const pixels = this.pixelsAt(1);
     const [x, y] = [(px - this.width / 2) / pixels, (this.height / 2 - py) / pixels];
     /** @param {number} i */
-    const from = (i) => right[i] * this.x + up[i] * this.y + back[i] * this.distance;
-    /** @param {number} i */
     const way = (i) => right[i] * x + up[i] * y - back[i];
-    return { from: [0, 1, 2].map(from), way: [0, 1, 2].map(way) };
+    return { from: this.eye, way: [0, 1, 2].map(way) };
   }
 
   /** The matrix for the GPU, column by column. @returns {Float32Array} */

@@ -203,7 +203,7 @@ export class DiagramChart extends RadiusChart {
       c.fill();
     };
     for (let i = 0; i < births.length; i++) mark(births[i], deaths[i]);
-    if (diagram.essential) mark(0, Infinity);
+    for (const birth of diagram.essential) mark(birth, Infinity);
   }
 
   /**

@@ -111,51 +111,48 @@ export function sumsBefore(values) {
 }
 
 /**
- * Births and deaths of the classes of one dimension that last.
- * @typedef {{births: Float64Array, deaths: Float64Array, essential: number}} Diagram
+ * Return for each edge the vertex whose component it ends, of a complex in which all vertices
+ * come at once: any of them, as components of the same age are alike.
+ * @param {Uint32Array} loops for each triangle the edge that began the loop that it ends
+ * @param {number} edges
+ * @returns {Uint32Array}
  */
-
-/**
- * @param {ArrayLike<number>} births
- * @param {ArrayLike<number>} deaths
- * @param {number} essential classes that never die; they are born at 0
- * @returns {Diagram}
- */
-export function lasting(births, deaths, essential) {
-  let kept = 0;
-  for (let i = 0; i < births.length; i++) if (births[i] < deaths[i]) kept++;
-  const [from, to] = [new Float64Array(kept), new Float64Array(kept)];
-  for (let i = 0, k = 0; i < births.length; i++) {
-    if (births[i] < deaths[i]) {
-      from[k] = births[i];
-      to[k++] = deaths[i];
-    }
-  }
-  return { births: from, deaths: to, essential };
+export function joiners(loops, edges) {
+  const begins = marked(loops, edges);
+  const creators = new Uint32Array(edges).fill(NEVER);
+  let joined = 0;
+  for (let e = 0; e < edges; e++) if (!begins[e]) creators[e] = ++joined;
+  return creators;
 }
 
 /**
- * Return the diagrams of all dimensions, from which class each simplex ends.
- * @param {number} vertices
- * @param {ArrayLike<number>[]} values filtration values of edges, triangles, ...
- * @param {Uint32Array[]} creators of the classes that triangles, ... end
- * @returns {Diagram[]} one for each dimension
+ * Births and deaths of the classes of one dimension that last, and births of those for ever.
+ * @typedef {{births: Float64Array, deaths: Float64Array, essential: Float64Array}} Diagram
  */
-export function diagramsOf(vertices, values, creators) {
-  const begins = marked(creators[0], values[0].length);
-  const ends = Array.from(values[0]).filter((_, i) => !begins[i]);
-  const diagrams = [lasting(new Float64Array(ends.length), ends, vertices - ends.length)];
-  creators.forEach((of, k) => {
-    /** @type {number[]} */
-    const births = [];
-    /** @type {number[]} */
-    const deaths = [];
-    for (let i = 0; i < of.length; i++) {
-      if (of[i] === NEVER) continue;
-      births.push(values[k][of[i]]);
-      deaths.push(values[k + 1][i]);
-    }
-    diagrams.push(lasting(births, deaths, 0));
-  });
-  return diagrams;
+
+/**
+ * Return the diagram of one dimension.
+ * @param {ArrayLike<number>} values filtration values of the simplices that begin classes
+ * @param {ArrayLike<number>} above of those that end them
+ * @param {Uint32Array} enders for each of those above the simplex whose class it ends
+ * @param {Uint32Array | undefined} own for each simplex the one whose class it ends itself
+ * @returns {Diagram}
+ */
+export function diagramOf(values, above, enders, own) {
+  const begins = marked(enders, values.length);
+  const essential = [];
+  for (let i = 0; i < values.length; i++) {
+    if (!begins[i] && (!own || own[i] === NEVER)) essential.push(values[i]);
+  }
+  let kept = 0;
+  /** @param {number} i */
+  const lasts = (i) => enders[i] !== NEVER && values[enders[i]] < above[i];
+  for (let i = 0; i < enders.length; i++) if (lasts(i)) kept++;
+  const [births, deaths] = [new Float64Array(kept), new Float64Array(kept)];
+  for (let i = 0, k = 0; i < enders.length; i++) {
+    if (!lasts(i)) continue;
+    births[k] = values[enders[i]];
+    deaths[k++] = above[i];
+  }
+  return { births, deaths, essential: Float64Array.from(essential) };
 }

@@ -2,7 +2,7 @@
 
 /**
  * @typedef {Float32Array | Float64Array | Uint32Array | Uint8Array} Numbers
- * @typedef {{name: string, type: "f32" | "u8" | "u32" | "rising", length: number}} Block
+ * @typedef {{name: string, type: "f32" | "u8" | "u32" | "rising" | "signed", length: number}} Block
  * @typedef {{meta: any, arrays: Record<string, Numbers>}} Payload
  */
 
@@ -43,13 +43,13 @@ export function unpack(bytes) {
   /** @type {Record<string, Numbers>} */
   const arrays = {};
   for (const { name, type, length } of /** @type {Block[]} */ (header.arrays)) {
-    const wide = { u8: 1, u32: 4, f32: 4, rising: 8 }[type];
+    const wide = { u8: 1, u32: 4, f32: 4, rising: 8, signed: 8 }[type];
     const planes = bytes.subarray(at, at + wide * length);
     at += wide * length;
     if (type === "u8") arrays[name] = planes.slice();
     else if (type === "u32") arrays[name] = words(planes, length, 0);
     else if (type === "f32") arrays[name] = new Float32Array(words(planes, length, 0).buffer);
-    else arrays[name] = risingFloats(planes, length);
+    else arrays[name] = risingFloats(planes, length, type === "signed");
   }
   if (at !== bytes.length) throw new Error(`the data has ${bytes.length} bytes, not ${at}`);
   return { meta: header.meta, arrays };
@@ -71,13 +71,15 @@ function words(planes, n, first) {
 }
 
 /**
- * Return ascending floats of at least 0 from the differences of their bit patterns: the
- * bits of such floats, read as whole numbers, ascend as the floats do.
+ * Return ascending floats from the differences of their bit patterns: the bits of floats of
+ * at least 0, read as whole numbers, ascend as the floats do. Those of floats of any sign do
+ * so with the sign turned, and all the other bits of negative floats, too.
  * @param {Uint8Array} planes
  * @param {number} n
+ * @param {boolean} signed
  * @returns {Float64Array}
  */
-function risingFloats(planes, n) {
+function risingFloats(planes, n, signed) {
   const low = words(planes, n, 0);
   const high = words(planes, n, 4);
   const bits = new Uint32Array(2 * n);
@@ -89,8 +91,9 @@ function risingFloats(planes, n) {
       lo -= 4294967296;
       hi += 1;
     }
-    bits[2 * i] = lo;
-    bits[2 * i + 1] = hi;
+    const turn = signed && hi < 2147483648 ? -1 : 0;
+    bits[2 * i] = lo ^ turn;
+    bits[2 * i + 1] = (signed ? hi ^ 0x80000000 : hi) ^ (turn & 0x7fffffff);
   }
   return new Float64Array(bits.buffer);
 }

@@ -2,7 +2,7 @@
 
 /**
  * @typedef {import("./plane.js").PlaneComplex} PlaneComplex
- * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./filtered.js").Facts} Facts
  */
 
 /** How often both ends of a line stand in the array: for six corners of two triangles. */
@@ -10,7 +10,7 @@ export const CORNERS = 6;
 
 /** Picks edges into an array that is used again and again. */
 export class EdgePicker {
-  /** @param {PlaneComplex} complex */
+  /** @param {PlaneComplex | import("./patch.js").Patch} complex what is drawn */
   constructor(complex) {
     this.complex = complex;
     this.numbers = new Float32Array(1 << 12);
@@ -27,7 +27,7 @@ export class EdgePicker {
    * @param {boolean} thin lines as thin as a pixel need their ends alone
    * @returns {{singular: number, boundary: number}} how many
    */
-  pick({ present: [, edges, triangles] }, thin) {
+  pick({ present: [, , triangles], shown: [, edges] }, thin) {
     const { first, last } = this.complex.cofaces;
     this.length = 0;
     this.corners = thin ? 1 : CORNERS;

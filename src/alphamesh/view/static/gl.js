@@ -83,20 +83,18 @@ export function vertexArray(gl, data, stride, attributes) {
 export const ROW = 2048;
 
 /**
- * Return numbers as a texture that shaders read place by place, `size` of them in each.
+ * Return numbers as a texture that shaders read place by place, four of them in each.
  * @param {GL} gl
  * @param {Float32Array} numbers
- * @param {2 | 4} size
  * @param {number} [wide] places in a row
  */
-export function tableOf(gl, numbers, size, wide = ROW) {
-  const rows = Math.max(1, Math.ceil(numbers.length / size / wide));
-  const padded = new Float32Array(size * wide * rows);
+export function tableOf(gl, numbers, wide = ROW) {
+  const rows = Math.max(1, Math.ceil(numbers.length / 4 / wide));
+  const padded = new Float32Array(4 * wide * rows);
   padded.set(numbers);
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);
-  const [inside, format] = size === 4 ? [gl.RGBA32F, gl.RGBA] : [gl.RG32F, gl.RG];
-  gl.texImage2D(gl.TEXTURE_2D, 0, inside, wide, rows, 0, format, gl.FLOAT, padded);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, wide, rows, 0, gl.RGBA, gl.FLOAT, padded);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   return texture;

@@ -24,14 +24,17 @@ export function writeHash({ radius, layers, view, theme }) {
 /**
  * Read what {@link writeHash} wrote; what makes no sense is left out.
  * @param {string} hash with or without the #
+ * @param {boolean} [signed] whether the radius may be negative
  * @returns {Saved}
  */
-export function readHash(hash) {
+export function readHash(hash, signed = false) {
   /** @type {Saved} */
   const saved = {};
   for (const part of hash.replace(/^#/, "").split("&")) {
     const [name, value = ""] = part.split("=", 2);
-    if (name === "r" && value !== "" && Number(value) >= 0) saved.radius = Number(value);
+    if (name === "r") {
+      if (value !== "" && (Number(value) >= 0 || (signed && Number(value) < 0))) saved.radius = Number(value);
+    }
     else if (name === "show" && /^[a-z]*$/.test(value)) saved.layers = value;
     else if (name === "theme" && ["light", "dark"].includes(value)) saved.theme = value;
     else if (name === "view") {

@@ -14,7 +14,7 @@ async function show(root) {
   data.remove();
   const view = new View(root, payload, {
     keys: document,
-    saved: readHash(location.hash),
+    saved: readHash(location.hash, payload.meta.signed),
     onchange: (saved) => history.replaceState(null, "", `#${writeHash(saved)}`),
   });
   root.removeAttribute("aria-busy");

@@ -8,17 +8,14 @@ import { counted } from "./text.js";
  * @typedef {import("./picture2.js").Layer} Layer
  */
 
-/** Names of the classes in words, by dimension of the space. */
-const WORDS = { 2: ["component", "hole"], 3: ["component", "tunnel", "void"] };
-
 /** The panel beside the picture. */
 export class Panel {
   /**
    * @param {Layer[]} layers
    * @param {any} charts
-   * @param {{ambient: 2 | 3, reason: string | null, toggle: (key: string) => void}} app
+   * @param {{words: string[], reason: string | null, toggle: (key: string) => void}} app
    */
-  constructor(layers, charts, { ambient, reason, toggle }) {
+  constructor(layers, charts, { words, reason, toggle }) {
     /** @type {Map<string, HTMLInputElement>} */
     this.boxes = new Map();
     /** @type {Map<string, HTMLElement>} */
@@ -30,7 +27,7 @@ export class Panel {
       element("legend", {}, "At this radius"),
       ...layers.map((layer) => this._layer(layer, toggle)),
     );
-    this.words = WORDS[ambient];
+    this.words = words;
     /** @type {HTMLElement[]} */
     this.numbers = [];
     this.element = element(

@@ -54,7 +54,7 @@ export function locate(complex, x, y, start) {
 
 /**
  * Return how far a place is from an edge.
- * @param {PlaneComplex} complex
+ * @param {PlaneComplex | import("./patch.js").Patch} complex
  * @param {number} e
  * @param {number} x
  * @param {number} y
@@ -91,7 +91,7 @@ export class Picker {
     const edges = [...complex.triangleEdges.subarray(3 * triangle, 3 * triangle + 3)];
     const near = this._nearest({ vertices: corners, edges }, x, y, reach);
     if (near || exit >= 0) return near;
-    return { dimension: 2, index: triangle, corners, value: complex.triangleValues[triangle] };
+    return { dimension: 2, index: triangle, corners, value: complex.values[2][triangle] };
   }
 
   /**
@@ -107,12 +107,72 @@ export class Picker {
     /** @param {number} v */
     const away = (v) => Math.hypot(x - p[2 * v], y - p[2 * v + 1]);
     const v = least(vertices, away);
-    if (v >= 0 && away(v) <= 1.4 * reach) return { dimension: 0, index: v, corners: [v], value: 0 };
+    if (v >= 0 && away(v) <= 1.4 * reach) {
+      return { dimension: 0, index: v, corners: [v], value: complex.values[0][v] };
+    }
     const e = least(edges, (edge) => distanceToEdge(complex, edge, x, y));
     if (e < 0 || distanceToEdge(complex, e, x, y) > reach) return null;
     const corners = [complex.edges[2 * e], complex.edges[2 * e + 1]];
-    return { dimension: 1, index: e, corners, value: complex.edgeValues[e] };
+    return { dimension: 1, index: e, corners, value: complex.values[1][e] };
   }
+}
+
+/** Finds simplices under the pointer among all that are drawn in and around a box. */
+export class PatchPicker {
+  /** @param {PlaneComplex} complex */
+  constructor(complex) {
+    this.complex = complex;
+    this.patch = /** @type {import("./patch.js").Patch} */ (complex.patch);
+  }
+
+  /**
+   * @param {number} x
+   * @param {number} y
+   * @param {number} reach how close a vertex or an edge must be
+   * @returns {Simplex | null}
+   */
+  at(x, y, reach) {
+    const { patch } = this;
+    const { positions: p, edges, triangles } = patch;
+    const v = nearest(patch.vertexCount, 1.4 * reach, (i) => Math.hypot(x - p[2 * i], y - p[2 * i + 1]));
+    if (v >= 0) return this._simplex(0, v, [v]);
+    const e = nearest(patch.edgeCount, reach, (i) => distanceToEdge(patch, i, x, y));
+    if (e >= 0) return this._simplex(1, e, [edges[2 * e], edges[2 * e + 1]]);
+    for (let t = 0; t < patch.triangleCount; t++) {
+      const [a, b, c] = triangles.subarray(3 * t, 3 * t + 3);
+      const turns = [turn(p, a, b, x, y), turn(p, b, c, x, y), turn(p, c, a, x, y)];
+      if (turns.every((s) => s >= 0) || turns.every((s) => s <= 0)) {
+        return this._simplex(2, t, [a, b, c]);
+      }
+    }
+    return null;
+  }
+
+  /**
+   * @param {0 | 1 | 2} dimension
+   * @param {number} index
+   * @param {number[]} corners
+   * @returns {Simplex}
+   */
+  _simplex(dimension, index, corners) {
+    const value = this.complex.values[dimension][this.patch.own[dimension][index]];
+    return { dimension, index, corners, value };
+  }
+}
+
+/**
+ * Return the nearest of some things, -1 if none is within reach.
+ * @param {number} count
+ * @param {number} reach
+ * @param {(i: number) => number} away
+ */
+function nearest(count, reach, away) {
+  let [found, least] = [-1, reach];
+  for (let i = 0; i < count; i++) {
+    const far = away(i);
+    if (far <= least) [found, least] = [i, far];
+  }
+  return found;
 }
 
 /**

@@ -1,16 +1,18 @@
 // The picture in the plane: what is drawn, how it moves, what is under the pointer.
 
 import { Camera } from "./camera.js";
-import { Picker } from "./pick.js";
+import { PatchPicker, Picker } from "./pick.js";
 import { Scene2 } from "./scene2.js";
 import { svgOf } from "./svg.js";
 import { count, counted, number } from "./text.js";
+import { VEIL, veilOf } from "./veil.js";
 
 /**
  * @typedef {{key: string, letter: string, name: string, on: boolean}} Layer
- * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./filtered.js").Facts} Facts
  */
 
+const HIDDEN = "in no simplex: heavier points leave it no cell";
 const NAMES = ["point", "edge", "triangle"];
 
 /** A complex in the plane. */
@@ -23,20 +25,24 @@ export class Picture2 {
     this.complex = complex;
     this.limit = limit;
     this.camera = new Camera(complex.meta.extent);
-    this.picker = new Picker(complex);
+    this.picker = complex.box ? new PatchPicker(complex) : new Picker(complex);
     /** @type {Scene2 | null} */
     this.scene = null;
     const few = complex.vertexCount <= 3000;
+    const kind = complex.weights ? "power" : "Voronoi";
     /** @type {Layer[]} */
     this.layers = [
       { key: "discs", letter: "d", name: "growing discs", on: few },
-      { key: "cells", letter: "v", name: "Voronoi cells in the discs", on: false },
+      { key: "cells", letter: "v", name: `${kind} cells in the discs`, on: false },
       { key: "triangles", letter: "t", name: "triangles", on: true },
       { key: "edges", letter: "e", name: "inner edges", on: true },
       { key: "boundary", letter: "b", name: "boundary edges", on: true },
       { key: "singular", letter: "s", name: "singular edges", on: true },
       { key: "points", letter: "p", name: "points", on: complex.vertexCount <= 200000 },
     ];
+    if (complex.hidden.rows.length) {
+      this.layers.push({ key: "hidden", letter: "h", name: "hidden points", on: true });
+    }
     this.help = "Drag to move, wheel or + and − to zoom, 0 to see all.";
   }
 
@@ -84,18 +90,19 @@ export class Picture2 {
    * @param {number} px
    * @param {number} py
    * @param {Facts} facts
+   * @param {Record<string, boolean>} layers
    */
-  hover(px, py, facts) {
+  hover(px, py, facts, layers) {
     const [x, y] = this.camera.toWorld(px, py);
+    const hidden = layers.hidden ? hiddenAt(this.complex, x, y, 5 / this.camera.scale) : -1;
+    if (hidden >= 0) return { simplex: null, lines: [`hidden point ${hidden}`, HIDDEN] };
     const simplex = this.picker.at(x, y, 5 / this.camera.scale);
     if (!simplex) return null;
-    const rows = simplex.corners.map((v) => this.complex.rowOf(v)).join(", ");
+    const rows = simplex.corners.map((v) => this.complex.rowOfDrawn(v)).join(", ");
     const what = `${NAMES[simplex.dimension]} ${rows}`;
-    const since =
-      simplex.dimension === 0
-        ? "there from radius 0"
-        : `${simplex.value <= facts.radius ? "in" : "not yet in"}: from radius ${number(simplex.value, 6)}`;
-    return { simplex, lines: [what, since] };
+    const since = `from radius ${number(simplex.value, 6)}`;
+    const there = simplex.dimension ? "in" : "there";
+    return { simplex, lines: [what, `${simplex.value <= facts.radius ? "" : "not yet "}${there}: ${since}`] };
   }
 
   /**
@@ -104,6 +111,7 @@ export class Picture2 {
    * @param {{palette: any, hovered: import("./pick.js").Simplex | null}} state
    */
   drawOver(c, { palette, hovered }) {
+    if (this.complex.box) this._drawBox(c, this.complex.box, palette);
     if (hovered) this._drawSimplex(c, hovered, palette);
     this._drawScale(c, palette);
   }
@@ -114,7 +122,7 @@ export class Picture2 {
    * @param {any} palette
    */
   _drawSimplex(c, simplex, palette) {
-    const p = this.complex.positions;
+    const p = this.complex.seen.positions;
     const places = simplex.corners.map((v) => this.camera.toScreen(p[2 * v], p[2 * v + 1]));
     c.strokeStyle = palette.radius;
     c.fillStyle = palette.radius;
@@ -131,6 +139,23 @@ export class Picture2 {
       c.arc(x, y, 4, 0, 7);
       c.fill();
     }
+  }
+
+  /**
+   * @param {CanvasRenderingContext2D} c
+   * @param {import("./filtered.js").Box} box
+   * @param {any} palette
+   */
+  _drawBox(c, box, palette) {
+    const { veil, rest, frame } = veilOf(box, this.camera);
+    c.fillStyle = palette.background;
+    c.globalAlpha = VEIL;
+    c.fill(new Path2D(veil), "evenodd");
+    c.globalAlpha = 1;
+    c.fill(new Path2D(rest), "evenodd");
+    c.strokeStyle = palette.text;
+    c.lineWidth = 1.2;
+    c.stroke(new Path2D(frame));
   }
 
   /**
@@ -163,6 +188,9 @@ export class Picture2 {
    */
   rows({ present, isolated, singularEdges, boundary, interior, size, border }) {
     const alone = isolated ? `${count(isolated)} alone of ${count(present[0])}` : count(present[0]);
+    const hidden = this.complex.hidden.rows.length;
+    /** @type {[string, string][]} */
+    const besides = hidden ? [["hidden", count(hidden)]] : [];
     return [
       ["triangles", count(present[2])],
       ["edges", count(interior)],
@@ -171,15 +199,16 @@ export class Picture2 {
       ["points", alone],
       ["area", number(size)],
       ["perimeter", number(border)],
+      ...besides,
     ];
   }
 
   /** @param {Facts} facts */
   sentence(facts) {
-    const [components, holes] = facts.betti;
+    const classes = facts.betti.map((value, k) => counted(value, this.complex.words[k]));
     return [
-      `radius ${number(facts.radius)}: ${counted(components, "component")}`,
-      counted(holes, "hole"),
+      `radius ${number(facts.radius)}: ${classes.join(", ")}`,
+      ...(facts.full ? ["the whole box"] : []),
       counted(facts.present[2], "triangle"),
       counted(facts.isolated, "isolated point"),
     ].join(", ");
@@ -194,4 +223,21 @@ export class Picture2 {
   get small() {
     return this.complex.vertexCount <= 3000;
   }
+}
+
+/**
+ * Return the row of the hidden point at a place, -1 if there is none.
+ * @param {import("./plane.js").PlaneComplex} complex
+ * @param {number} x
+ * @param {number} y
+ * @param {number} reach
+ */
+export function hiddenAt({ hidden }, x, y, reach) {
+  const p = hidden.positions;
+  let [found, nearest] = [-1, reach];
+  for (let i = 0; i < hidden.rows.length; i++) {
+    const away = Math.hypot(p[2 * i] - x, p[2 * i + 1] - y);
+    if (away <= nearest) [found, nearest] = [hidden.rows[i], away];
+  }
+  return found;
 }

@@ -1,13 +1,15 @@
 // The picture in space: what is drawn, how it turns, what is under the pointer.
 
 import { Camera3, dot } from "./camera3.js";
+import { countUpTo } from "./complex.js";
 import { element } from "./dom.js";
+import { ballsOf, frameOf, sidesInFront } from "./frame3.js";
 import { Scene3 } from "./scene3.js";
 import { svgOfSurface } from "./svg3.js";
 import { count, counted, number } from "./text.js";
 
 /**
- * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./filtered.js").Facts} Facts
  * @typedef {import("./picture2.js").Layer} Layer
  */
 
@@ -20,9 +22,13 @@ export class Picture3 {
   constructor(complex, limit) {
     this.complex = complex;
     this.limit = limit;
-    this.camera = new Camera3(farthest(complex.positions));
+    const overhang = Math.min(0.4, complex.reach(0));
+    const [low, high] = complex.box ? [complex.box.low, complex.box.high] : [[], []];
+    const corners = complex.box ? [...low, ...high] : complex.positions;
+    this.camera = new Camera3(farthest(corners) + overhang);
     /** @type {Scene3 | null} */
     this.scene = null;
+    const weighted = Boolean(complex.weights) && complex.vertexCount <= 3000;
     /** @type {Layer[]} */
     this.layers = [
       { key: "boundary", letter: "b", name: "surface", on: true },
@@ -30,8 +36,12 @@ export class Picture3 {
       { key: "singular", letter: "s", name: "singular triangles", on: true },
       { key: "lone", letter: "n", name: "edges alone", on: true },
       { key: "points", letter: "p", name: "points", on: true },
+      { key: "balls", letter: "o", name: "growing balls", on: weighted },
       { key: "cut", letter: "x", name: "cut open", on: false },
     ];
+    if (complex.hidden.rows.length) {
+      this.layers.push({ key: "hidden", letter: "h", name: "hidden points", on: true });
+    }
     this.help =
       "Drag to turn, shift-drag to move, wheel or + and − to zoom, 0 for the first view. " +
       "The cut faces you when you switch it on; its slider, or [ and ], move it.";
@@ -145,12 +155,13 @@ export class Picture3 {
     this.scene.pick(facts);
     const { from, way } = this.camera.ray(px, py);
     const shown = { boundary: layers.boundary, singular: layers.singular };
-    const index = this.scene.picker.hit(from, way, this.shown ?? null, shown);
+    const index = this.scene.picker.hit(from, way, (place) => this._keeps(place), shown);
     if (index < 0) return null;
-    const corners = [...this.complex.triangles.subarray(3 * index, 3 * index + 3)];
-    const rows = corners.map((v) => this.complex.rowOf(v)).sort((a, b) => a - b);
-    const value = this.complex.triangleValues[index];
-    const alone = this.complex.cofaces.first[index] >= facts.present[3];
+    const { seen, patch } = this.complex;
+    const corners = [...seen.triangles.subarray(3 * index, 3 * index + 3)];
+    const rows = corners.map((v) => this.complex.rowOfDrawn(v)).sort((a, b) => a - b);
+    const value = this.complex.values[2][patch ? patch.own[2][index] : index];
+    const alone = seen.cofaces.first[index] >= facts.present[3];
     return {
       simplex: { dimension: 2, index, corners, value },
       lines: [
@@ -166,7 +177,7 @@ export class Picture3 {
    */
   drawOver(c, { palette, hovered }) {
     if (!hovered) return;
-    const p = this.complex.positions;
+    const p = this.complex.seen.positions;
     c.strokeStyle = palette.radius;
     c.lineWidth = 2;
     c.beginPath();
@@ -181,6 +192,9 @@ export class Picture3 {
    */
   rows({ present, isolated, singularEdges, singularTriangles = 0, boundary, size, border }) {
     const alone = isolated ? `${count(isolated)} alone of ${count(present[0])}` : count(present[0]);
+    const hidden = this.complex.hidden.rows.length;
+    /** @type {[string, string][]} */
+    const besides = hidden ? [["hidden", count(hidden)]] : [];
     return [
       ["boundary", count(boundary)],
       ["singular", count(singularTriangles)],
@@ -190,19 +204,49 @@ export class Picture3 {
       ["volume", number(size)],
       ["triangles", count(present[2])],
       ["surface", number(border)],
+      ...besides,
     ];
   }
 
   /** @param {Facts} facts */
   sentence(facts) {
-    const [components, tunnels, voids] = facts.betti;
+    const classes = facts.betti.map((value, k) => counted(value, this.complex.words[k]));
     return [
-      `radius ${number(facts.radius)}: ${counted(components, "component")}`,
-      counted(tunnels, "tunnel"),
-      counted(voids, "void"),
+      `radius ${number(facts.radius)}: ${classes.join(", ")}`,
+      ...(facts.full ? ["the whole box"] : []),
       counted(facts.present[3], "tetrahedron", "tetrahedra"),
       counted(facts.isolated, "isolated point"),
     ].join(", ");
+  }
+
+  /**
+   * Return the balls that are shown: where, and how large.
+   * @param {{facts: Facts, layers: Record<string, boolean>}} state
+   */
+  _balls({ facts, layers }) {
+    const balls = layers.balls ? ballsOf(this.complex) : new Float32Array(0);
+    const power = this.complex.power(facts.radius);
+    return Array.from({ length: balls.length / 4 }, (_, i) => ({
+      place: balls.subarray(4 * i, 4 * i + 3),
+      radius: Math.sqrt(Math.max(0, power + balls[4 * i + 3])),
+    }));
+  }
+
+  /** Whether a place is in the box, and on this side of the cut. @param {ArrayLike<number>} p */
+  _keeps(p) {
+    if (this.shown && dot(this.shown.normal, p) > this.shown.offset) return false;
+    return this._walls().every(({ normal, offset }) => dot(normal, p) <= offset + 1e-4);
+  }
+
+  /** The planes where a box ends. @returns {import("./scene3.js").Cut[]} */
+  _walls() {
+    const { box } = this.complex;
+    if (!box) return [];
+    return [0, 1, 2].filter((k) => box.periods[k]).flatMap((k) => {
+      const normal = [0, 0, 0].map((_, i) => (i === k ? 1 : 0));
+      const back = normal.map((n) => -n);
+      return [{ normal, offset: box.high[k] }, { normal: back, offset: -box.low[k] }];
+    });
   }
 
   /** @param {{facts: Facts, layers: Record<string, boolean>, palette: any, title: string}} state */
@@ -212,13 +256,22 @@ export class Picture3 {
     if (!picker) return "";
     /** @param {ArrayLike<number>} p */
     const kept = (p) => !this.shown || dot(this.shown.normal, p) <= this.shown.offset;
-    return svgOfSurface(picker, this.camera, kept, state);
+    const { box, caps } = this.complex;
+    const count = countUpTo(caps.ranks, state.facts.present[3] - 1);
+    return svgOfSurface(picker, this.camera, kept, {
+      ...state,
+      balls: this._balls(state),
+      walls: this._walls(),
+      caps: caps.corners.subarray(0, 9 * count),
+      frame: frameOf(box),
+      inFront: box ? sidesInFront(box, this.camera.eye) : [],
+    });
   }
 }
 
 /**
  * Return how far the farthest point is from the middle.
- * @param {Float32Array} p
+ * @param {ArrayLike<number>} p
  */
 function farthest(p) {
   let most = 0;

@@ -1,65 +1,43 @@
 // A filtration in the plane, and the facts at a radius.
 
-import {
-  cofaceRanks,
-  cornersOf,
-  countUpTo,
-  countsBelow,
-  diagramsOf,
-  firstEdges,
-  marked,
-  sumsBefore,
-} from "./complex.js";
+import { cofaceRanks, cornersOf, countsBelow, sumsBefore } from "./complex.js";
+import { FilteredComplex } from "./filtered.js";
+import { Patch } from "./patch.js";
 
-/**
- * What is in the complex at a radius.
- * @typedef {object} Facts
- * @property {number} radius
- * @property {number[]} present simplices of each dimension
- * @property {number[]} betti
- * @property {number} isolated vertices without an edge
- * @property {number} singularEdges
- * @property {number} [singularTriangles]
- * @property {number} boundary facets on the boundary
- * @property {number} interior facets inside
- * @property {number} size area, or volume
- * @property {number} border perimeter, or area of the surface
- */
+/** @typedef {import("./filtered.js").Facts} Facts */
 
 /** All simplices of a cloud in the plane, sorted by filtration value. */
-export class PlaneComplex {
+export class PlaneComplex extends FilteredComplex {
   /** @param {import("./data.js").Payload} payload */
-  constructor({ meta, arrays }) {
-    this.ambient = 2;
-    this.meta = meta;
-    this.positions = /** @type {Float32Array} */ (arrays.positions);
-    this.rows = /** @type {Uint32Array | undefined} */ (arrays.rows);
-    this.edges = /** @type {Uint32Array} */ (arrays.edges);
-    this.edgeValues = /** @type {Float64Array} */ (arrays.edge_values);
+  constructor(payload) {
+    super(payload, 2);
+    const { arrays } = payload;
     this.triangleEdges = /** @type {Uint32Array} */ (arrays.triangle_facets);
-    this.triangleValues = /** @type {Float64Array} */ (arrays.triangle_values);
-    const loops = /** @type {Uint32Array} */ (arrays.triangle_creators);
-
-    this.vertexCount = this.positions.length / 2;
-    this.edgeCount = this.edgeValues.length;
-    this.triangleCount = this.triangleValues.length;
-    this.triangles = cornersOf(this.edges, this.triangleEdges);
+    this.triangleCount = this.triangleEdges.length / 3;
+    const told = /** @type {Uint32Array | undefined} */ (arrays.triangle_corners);
+    this.triangles = told ?? cornersOf(this.edges, this.triangleEdges);
     /** Ranks of the cofaces of each edge. */
     this.cofaces = cofaceRanks(this.triangleEdges, 3, this.edgeCount);
-    this.joined = firstEdges(this.edges, this.vertexCount);
+    this.covered = this.cofaces.first;
 
-    this.values = [this.edgeValues, this.triangleValues];
-    this.diagrams = diagramsOf(this.vertexCount, this.values, [loops]);
-    this._loopsBegun = sumsBefore(marked(loops, this.edgeCount));
     this._verticesJoined = countsBelow(this.joined, this.edgeCount);
     this._edgesEntered = countsBelow(this.cofaces.first, this.triangleCount);
     this._edgesLeft = countsBelow(this.cofaces.last, this.triangleCount);
-    const { areas, lengths } = this._measure();
-    this._areas = sumsBefore(areas);
-    this._lengths = sumsBefore(lengths);
+    const areas = /** @type {Float32Array | undefined} */ (arrays.cell_sizes);
+    this._areas = sumsBefore(areas ?? this._measure());
+    const lengths = Float64Array.from({ length: this.edgeCount }, (_, e) => this.edgeLength(e));
+    this._lengths = sumsBefore(this.borders(this.triangleEdges, lengths));
+    // Of few points discs are drawn, which reach farther.
+    /** @type {Patch | null} */
+    this.patch = this.box ? new Patch(this, this.vertexCount <= 3000 ? 0.5 : 0.2) : null;
   }
 
-  /** Return how the area and the length of the border change with each triangle. */
+  /** What is drawn. @returns {PlaneComplex | Patch} */
+  get seen() {
+    return this.patch ?? this;
+  }
+
+  /** Return the area of each triangle. */
   _measure() {
     const areas = new Float64Array(this.triangleCount);
     const p = this.positions;
@@ -71,25 +49,7 @@ export class PlaneComplex {
         (p[b] - p[a]) * (p[c + 1] - p[a + 1]) - (p[c] - p[a]) * (p[b + 1] - p[a + 1]);
       areas[t] = Math.abs(cross) / 2;
     }
-    // How the length of the border changes when a triangle comes.
-    const lengths = new Float64Array(this.triangleCount);
-    for (let i = 0; i < this.triangleEdges.length; i++) {
-      const e = this.triangleEdges[i];
-      const t = Math.floor(i / 3);
-      const length = this.edgeLength(e);
-      lengths[t] += this.cofaces.first[e] === t ? length : -length;
-    }
-    return { areas, lengths };
-  }
-
-  /**
-   * @param {number} e
-   * @returns {number} in units of the picture
-   */
-  edgeLength(e) {
-    const [a, b] = [2 * this.edges[2 * e], 2 * this.edges[2 * e + 1]];
-    const p = this.positions;
-    return Math.hypot(p[b] - p[a], p[b + 1] - p[a + 1]);
+    return areas;
   }
 
   /**
@@ -98,31 +58,24 @@ export class PlaneComplex {
    * @returns {Facts}
    */
   at(radius) {
-    const edges = countUpTo(this.edgeValues, radius);
-    const triangles = countUpTo(this.triangleValues, radius);
-    const begun = this._loopsBegun[edges];
+    const present = this.present(radius);
+    const [vertices, edges, triangles] = present;
     const entered = this._edgesEntered[triangles];
     const interior = this._edgesLeft[triangles];
     const boundary = entered - interior;
     const { scale } = this.meta;
     return {
       radius,
-      present: [this.vertexCount, edges, triangles],
-      betti: [this.vertexCount - (edges - begun), begun - triangles],
-      isolated: this.vertexCount - this._verticesJoined[edges],
+      present,
+      shown: this.shown(present),
+      betti: this.betti(present),
+      isolated: vertices - this._verticesJoined[edges],
       singularEdges: edges - entered,
       boundary,
       interior,
       size: this._areas[triangles] * scale * scale,
       border: boundary ? this._lengths[triangles] * scale : 0,
+      full: this.isFull(present),
     };
-  }
-
-  /**
-   * Return the row of the cloud that a vertex is.
-   * @param {number} vertex
-   */
-  rowOf(vertex) {
-    return this.rows ? this.rows[vertex] : vertex;
   }
 }

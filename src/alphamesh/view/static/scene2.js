@@ -1,22 +1,33 @@
 // The picture in the plane, drawn by the GPU from arrays that never change.
 
-import { cellPieces, PIECE } from "./cells.js";
+import { cellPieces, pieceSize } from "./cells.js";
+import { NEVER } from "./complex.js";
 import { CORNERS, EdgePicker } from "./edges2.js";
 import { FillCache } from "./fill.js";
-import { bufferOf, compile, tableOf, vertexArray } from "./gl.js";
+import { bufferOf, compile, ROW, tableOf, vertexArray } from "./gl.js";
 import * as shaders from "./shaders2.js";
+import { hiddenSize, lineWidth, pointSizes, showsEdges, spacingOf } from "./sizes.js";
 import { rgb } from "./theme.js";
 
 /**
  * @typedef {import("./gl.js").GL} GL
  * @typedef {import("./plane.js").PlaneComplex} PlaneComplex
- * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./filtered.js").Facts} Facts
  * @typedef {import("./camera.js").Camera} Camera
  * @typedef {Record<string, boolean>} Layers
+ * @typedef {PlaneComplex | import("./patch.js").Patch} Seen
  */
 
 /** More circles than that are a grey mass. */
 export const MOST_CIRCLES = 3000;
+
+/** A place and a rank, one after the other. */
+const POINT = [
+  { place: 0, size: 2, offset: 0 },
+  { place: 1, size: 1, offset: 8, whole: true },
+];
+
+const NOTHING = { triangles: 0, edges: 0, boundary: 0, singular: 0, points: 0, hidden: 0 };
 
 /** Draws a complex in the plane. */
 export class Scene2 {
@@ -28,25 +39,23 @@ export class Scene2 {
   constructor(gl, complex, reach) {
     this.gl = gl;
     this.complex = complex;
+    /** What is drawn: in a box copies, too. */
+    this.seen = complex.seen;
     this.far = Math.max(64, 8 * reach);
     /** What the last picture was made of. */
-    this.drawn = { triangles: 0, edges: 0, boundary: 0, singular: 0, points: 0 };
+    this.drawn = { ...NOTHING };
     this.fill = compile(gl, shaders.FILL_VERTEX, shaders.FILL_FRAGMENT);
     this.line = compile(gl, shaders.EDGE_VERTEX, shaders.EDGE_FRAGMENT);
     this.inner = compile(gl, shaders.INNER_VERTEX, shaders.EDGE_FRAGMENT);
     this.dot = compile(gl, shaders.POINT_VERTEX, shaders.POINT_FRAGMENT);
     this.cell = compile(gl, shaders.CELL_VERTEX, shaders.CELL_FRAGMENT);
     this.circle = compile(gl, shaders.CIRCLE_VERTEX, shaders.EDGE_FRAGMENT);
-    const both = [
-      { place: 0, size: 2, offset: 0 },
-      { place: 1, size: 1, offset: 8, whole: true },
-    ];
-    this.points = vertexArray(gl, interleaved(complex.positions, [complex.joined]), 12, both);
-    this.triangles = vertexArray(gl, complex.positions, 8, [both[0]]);
+    this.points = vertexArray(gl, interleaved(this.seen.positions, [this.seen.joined]), 12, POINT);
+    this.triangles = vertexArray(gl, this.seen.positions, 8, [POINT[0]]);
     gl.bindVertexArray(this.triangles);
-    bufferOf(gl, gl.ELEMENT_ARRAY_BUFFER, complex.triangles);
+    bufferOf(gl, gl.ELEMENT_ARRAY_BUFFER, this.seen.triangles);
     gl.bindVertexArray(null);
-    this.edges = vertexArray(gl, endsOf(complex), 12, both);
+    this.edges = vertexArray(gl, endsOf(this.seen), 12, POINT);
     const record = [
       { place: 0, size: 2, offset: 0 },
       { place: 1, size: 2, offset: 8 },
@@ -61,11 +70,13 @@ export class Scene2 {
     gl.bindVertexArray(null);
     /** @type {WebGLTexture | null} */
     this.sites = null;
-    /** @type {{table: WebGLTexture | null, count: number} | null} */
+    /** @type {{table: WebGLTexture | null, texels: number, count: number} | null} */
     this.cells = null;
     /** Only where edges are not smooth: there it is exact, and needed most. */
     this.cache = gl.getContextAttributes()?.antialias ? null : new FillCache(gl);
-    this.picker = new EdgePicker(complex);
+    this.picker = new EdgePicker(this.seen);
+    /** @type {WebGLVertexArrayObject | null} */
+    this.hidden = null;
     /** @type {{singular: number, boundary: number}} */
     this.picked = { singular: 0, boundary: 0 };
     this.pickedAt = "";
@@ -83,17 +94,19 @@ export class Scene2 {
     gl.clearColor(...rgb(palette.background), 1);
     gl.clear(gl.COLOR_BUFFER_BIT);
     const view = { camera, width, height, scale: camera.scale * ratio, ratio };
-    const radius = facts.radius / this.complex.meta.scale;
-    this.drawn = { triangles: 0, edges: 0, boundary: 0, singular: 0, points: 0 };
+    const reach = this.complex.reach(facts.radius);
+    this.drawn = { ...NOTHING };
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-    if (layers.cells || layers.discs) this._drawCells(view, radius, layers, palette);
-    if (layers.discs && radius > 0) this._drawCircles(view, radius, palette);
+    const grown = { reach, power: this.complex.power(facts.radius) };
+    if ((layers.cells || layers.discs) && reach > 0) this._drawCells(view, grown, layers, palette);
+    if (layers.discs && reach > 0) this._drawCircles(view, grown, palette);
     if (layers.triangles) {
       const over = layers.cells || layers.discs;
       this._drawTriangles(view, facts, palette, over ? 0.72 : 1);
     }
     this._drawEdges(view, facts, layers, palette);
+    if (layers.hidden) this._drawHidden(view, palette);
     if (layers.points) this._drawPoints(view, facts, palette);
     gl.bindVertexArray(null);
   }
@@ -117,20 +130,22 @@ export class Scene2 {
 
   /**
    * @param {any} view
-   * @param {number} radius
+   * @param {{power: number}} grown
    * @param {Layers} layers
    * @param {any} palette
    */
-  _drawCells(view, radius, layers, palette) {
+  _drawCells(view, { power }, layers, palette) {
     const { gl } = this;
     if (!this.cells) {
-      const pieces = cellPieces(this.complex, this.far);
-      const table = tableOf(gl, pieces, 4, 3 * 682); // whole pieces in a row
-      this.cells = { table, count: pieces.length / PIECE };
+      const pieces = cellPieces(this.seen, this.far);
+      const texels = pieceSize(this.seen) / 4;
+      const table = tableOf(gl, pieces, texels * Math.floor(ROW / texels)); // whole pieces in a row
+      this.cells = { table, texels, count: pieces.length / 4 / texels };
     }
     const { at } = this.cell;
     this._use(this.cell, view);
-    gl.uniform1f(at.uRadius, radius);
+    gl.uniform1f(at.uPower, power);
+    gl.uniform1i(at.uTexels, this.cells.texels);
     const palettes = layers.cells ? palette.cells : Array(7).fill(palette.union);
     gl.uniform3fv(at.uCells, palettes.flatMap(rgb));
     gl.uniform3fv(at.uRidge, rgb(palette.ridges));
@@ -144,21 +159,21 @@ export class Scene2 {
 
   /**
    * @param {any} view
-   * @param {number} radius
+   * @param {{power: number, reach: number}} grown
    * @param {any} palette
    */
-  _drawCircles(view, radius, palette) {
-    const { gl, complex } = this;
-    if (complex.vertexCount > MOST_CIRCLES) return;
+  _drawCircles(view, { power, reach }, palette) {
+    const { gl, seen } = this;
+    if (this.complex.vertexCount > MOST_CIRCLES) return;
     this._use(this.circle, view);
-    gl.uniform1f(this.circle.at.uRadius, radius);
-    const corners = Math.round(Math.min(64, Math.max(12, 3.5 * Math.sqrt(radius * view.scale))));
+    gl.uniform1f(this.circle.at.uPower, power);
+    const corners = Math.round(Math.min(64, Math.max(12, 3.5 * Math.sqrt(reach * view.scale))));
     gl.uniform1i(this.circle.at.uCorners, corners);
     gl.uniform3fv(this.circle.at.uColour, rgb(palette.circles));
-    this.sites ??= tableOf(gl, complex.positions, 2);
+    this.sites ??= tableOf(gl, ballsOf(seen));
     gl.bindTexture(gl.TEXTURE_2D, this.sites);
     gl.bindVertexArray(null);
-    gl.drawArrays(gl.LINES, 0, 2 * corners * complex.vertexCount);
+    gl.drawArrays(gl.LINES, 0, 2 * corners * seen.vertexCount);
   }
 
   /**
@@ -169,7 +184,7 @@ export class Scene2 {
    */
   _drawTriangles(view, facts, palette, opacity) {
     const { gl } = this;
-    const count = facts.present[2];
+    const count = facts.shown[2];
     const { cache } = opacity === 1 ? this : { cache: null };
     const { x, y, zoom } = view.camera;
     const change = cache
@@ -194,7 +209,7 @@ export class Scene2 {
   _drawEdges(view, facts, layers, palette) {
     const { gl } = this;
     const spacing = this._spacing(view) / view.ratio;
-    const count = facts.present[1];
+    const count = facts.shown[1];
     if (layers.edges && showsEdges(spacing)) {
       this._use(this.inner, view);
       gl.uniform1ui(this.inner.at.uTriangles, facts.present[2]);
@@ -265,46 +280,53 @@ export class Scene2 {
     gl.uniform1ui(at.uEdges, facts.present[1]);
     gl.uniform3fv(at.uColours, [palette.points, palette.isolated].flatMap(rgb));
     gl.bindVertexArray(this.points);
-    gl.drawArrays(gl.POINTS, 0, this.complex.vertexCount);
-    this.drawn.points = this.complex.vertexCount;
+    gl.drawArrays(gl.POINTS, 0, facts.shown[0]);
+    this.drawn.points = facts.shown[0];
+  }
+
+  /**
+   * Draw points that are hidden as rings.
+   * @param {any} view
+   * @param {any} palette
+   */
+  _drawHidden(view, palette) {
+    const { gl } = this;
+    const { positions, rows } = this.complex.hidden;
+    this.hidden ??= vertexArray(
+      gl,
+      interleaved(positions, [new Uint32Array(rows.length).fill(NEVER)]),
+      12,
+      POINT,
+    );
+    const { at } = this.dot;
+    this._use(this.dot, view);
+    gl.uniform1ui(at.uEdges, 0);
+    gl.bindVertexArray(this.hidden);
+    const size = hiddenSize(this._spacing(view) / view.ratio) * view.ratio;
+    for (const [diameter, colour] of [
+      [size, palette.quiet],
+      [0.6 * size, palette.background],
+    ]) {
+      gl.uniform2f(at.uSizes, 0, diameter);
+      gl.uniform3fv(at.uColours, [colour, colour].flatMap(rgb));
+      gl.drawArrays(gl.POINTS, 0, rows.length);
+    }
+    this.drawn.hidden = rows.length;
   }
 }
 
-/** Whether edges inside can be told apart. @param {number} spacing in CSS pixels */
-export function showsEdges(spacing) {
-  return spacing > 4;
-}
-
 /**
- * Return the width of boundary and singular edges in CSS pixels.
- * @param {number} spacing of the points, in CSS pixels
+ * Return the place and the weight of each vertex.
+ * @param {Seen} seen
  */
-export function lineWidth(spacing) {
-  return Math.min(Math.max(0.16 * spacing, 1.2), 3);
-}
-
-/**
- * Return the diameters of points with edges and without, in CSS pixels; 0 hides them.
- * @param {number} spacing
- * @returns {[number, number]}
- */
-export function pointSizes(spacing) {
-  const size = Math.min(Math.max(0.24 * spacing, 1.2), 6.5);
-  return [spacing > 4 ? size : 0, 1.4 * size];
-}
-
-/**
- * Return the typical distance of neighbours, in units of the picture.
- * @param {{vertexCount: number, edgeCount: number, joined: Uint32Array,
- *          edgeLength: (edge: number) => number}} complex
- */
-export function spacingOf(complex) {
-  if (complex.edgeCount === 0) return 0.2;
-  const lengths = new Float64Array(complex.vertexCount);
-  for (let v = 0; v < lengths.length; v++) lengths[v] = complex.edgeLength(complex.joined[v]);
-  lengths.sort();
-  // Neighbours are a little farther apart than the nearest of them.
-  return 1.5 * lengths[lengths.length >> 1];
+function ballsOf({ positions, weights, vertexCount }) {
+  const balls = new Float32Array(4 * vertexCount);
+  for (let v = 0; v < vertexCount; v++) {
+    balls[4 * v] = positions[2 * v];
+    balls[4 * v + 1] = positions[2 * v + 1];
+    balls[4 * v + 2] = weights ? weights[v] : 0;
+  }
+  return balls;
 }
 
 /**
@@ -327,7 +349,7 @@ function interleaved(floats, columns, each = 2) {
 
 /**
  * Return both ends of each edge, each with the rank of the last triangle of the edge.
- * @param {PlaneComplex} complex
+ * @param {Seen} seen
  */
 function endsOf({ edges, positions, cofaces }) {
   const ends = new Float32Array(2 * edges.length);

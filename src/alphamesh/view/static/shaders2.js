@@ -95,24 +95,34 @@ void main() {
 export const CELL_VERTEX = `${VIEW}
 uniform highp sampler2D uPieces;
 uniform vec3 uCells[7];
+uniform int uTexels; // of a piece: with weights, the last one holds the tips
+uniform float uPower;
 flat out vec2 vSite;
+flat out float vRadius;
 flat out vec3 vRidge;
 flat out vec3 vColour;
 void main() {
   int piece = gl_VertexID / 6;
-  ivec2 at = ivec2(3 * (piece % 682), piece / 682);
+  int each = 2048 / uTexels;
+  ivec2 at = ivec2(uTexels * (piece % each), piece / each);
   vec4 sites = texelFetch(uPieces, at, 0);
   vec4 ridge = texelFetch(uPieces, at + ivec2(1, 0), 0);
   vec4 colours = texelFetch(uPieces, at + ivec2(2, 0), 0);
+  vec4 tips = uTexels == 4 ? texelFetch(uPieces, at + ivec2(3, 0), 0) : sites;
   bool second = gl_VertexID % 6 >= 3;
   vSite = second ? sites.zw : sites.xy;
   vec2 step = second ? sites.xy - sites.zw : sites.zw - sites.xy;
-  float half_length = 0.5 * length(step);
+  float wide = length(step);
+  vec2 weights = second ? colours.wz : colours.zw;
+  float away = 0.5 * wide + 0.5 * (weights.x - weights.y) / wide;
   // Seen from the site: the direction of the ridge, and how far it is; none in a sector.
-  vRidge = half_length > 0.0 ? vec3(step / (2.0 * half_length), half_length) : vec3(0, 0, 1e9);
+  vRidge = wide > 0.0 ? vec3(step / wide, away) : vec3(0, 0, 1e9);
+  vRadius = sqrt(max(0.0, weights.x + uPower));
   vColour = uCells[int(second ? colours.y : colours.x)];
   int corner = gl_VertexID % 3;
-  gl_Position = seen(corner == 0 ? vSite : corner == 1 ? ridge.xy : ridge.zw, 0.0);
+  vec2 tip = second ? tips.zw : tips.xy;
+  gl_Position = seen(corner == 0 ? tip : corner == 1 ? ridge.xy : ridge.zw, 0.0);
+  if (vRadius == 0.0) gl_Position = NOWHERE;
 }
 `;
 
@@ -120,18 +130,18 @@ export const CELL_FRAGMENT = `
 uniform vec2 uCenter;
 uniform vec2 uSize;
 uniform float uPixels;
-uniform float uRadius;
 uniform vec2 uWidths;
 uniform vec3 uRidge;
 uniform vec3 uArc;
 flat in vec2 vSite;
+flat in float vRadius;
 flat in vec3 vRidge;
 flat in vec3 vColour;
 out vec4 colour;
 void main() {
   // From the pixel itself: corners far away would leave too few digits.
   vec2 offset = (gl_FragCoord.xy - 0.5 * uSize) / uPixels + uCenter - vSite;
-  float inside = (uRadius - length(offset)) * uPixels;
+  float inside = (vRadius - length(offset)) * uPixels;
   if (inside < -0.5) discard;
   float ridge = (vRidge.z - dot(offset, vRidge.xy)) * uPixels;
   vec3 shade = mix(vColour, uRidge, min(1.0, uWidths.x) * clamp(uWidths.x - ridge + 0.5, 0.0, 1.0));
@@ -142,8 +152,8 @@ void main() {
 
 // All chords of all circles, one after the other.
 export const CIRCLE_VERTEX = `${VIEW}
-uniform highp sampler2D uSites;
-uniform float uRadius;
+uniform highp sampler2D uSites; // places and weights
+uniform float uPower;
 uniform int uCorners;
 uniform vec3 uColour;
 flat out vec3 vColour;
@@ -152,8 +162,10 @@ void main() {
   int site = chord / uCorners;
   int corner = chord % uCorners + gl_VertexID % 2;
   float angle = 6.28318530718 * float(corner) / float(uCorners);
-  vec2 center = texelFetch(uSites, ivec2(site % 2048, site / 2048), 0).xy;
+  vec4 ball = texelFetch(uSites, ivec2(site % 2048, site / 2048), 0);
+  float radius = sqrt(max(0.0, ball.z + uPower));
   vColour = uColour;
-  gl_Position = seen(center + uRadius * vec2(cos(angle), sin(angle)), 0.0);
+  gl_Position = seen(ball.xy + radius * vec2(cos(angle), sin(angle)), 0.0);
+  if (radius == 0.0) gl_Position = NOWHERE;
 }
 `;

@@ -1,73 +1,59 @@
 // A filtration in space, and the facts at a radius.
 
-import {
-  cofaceRanks,
-  cornersOf,
-  countUpTo,
-  countsBelow,
-  diagramsOf,
-  firstEdges,
-  marked,
-  NEVER,
-  sumsBefore,
-} from "./complex.js";
+import { cofaceRanks, cornersOf, countsBelow, sumsBefore } from "./complex.js";
+import { FilteredComplex } from "./filtered.js";
+import { Patch } from "./patch.js";
 
-/** @typedef {import("./plane.js").Facts} Facts */
+/** @typedef {import("./filtered.js").Facts} Facts */
 
 /** All simplices of a cloud in space, sorted by filtration value. */
-export class SpaceComplex {
+export class SpaceComplex extends FilteredComplex {
   /** @param {import("./data.js").Payload} payload */
-  constructor({ meta, arrays }) {
-    this.ambient = 3;
-    this.meta = meta;
-    this.positions = /** @type {Float32Array} */ (arrays.positions);
-    this.rows = /** @type {Uint32Array | undefined} */ (arrays.rows);
-    this.edges = /** @type {Uint32Array} */ (arrays.edges);
-    this.edgeValues = /** @type {Float64Array} */ (arrays.edge_values);
-    this.triangleValues = /** @type {Float64Array} */ (arrays.triangle_values);
-    this.tetrahedronFacets = /** @type {Uint32Array} */ (arrays.tetrahedron_facets);
-    this.tetrahedronValues = /** @type {Float64Array} */ (arrays.tetrahedron_values);
+  constructor(payload) {
+    super(payload, 3);
+    const { arrays } = payload;
     const triangleEdges = /** @type {Uint32Array} */ (arrays.triangle_facets);
-    const loops = /** @type {Uint32Array} */ (arrays.triangle_creators);
-    const voids = /** @type {Uint32Array} */ (arrays.tetrahedron_creators);
-
-    this.vertexCount = this.positions.length / 3;
-    this.edgeCount = this.edgeValues.length;
-    this.triangleCount = this.triangleValues.length;
-    this.tetrahedronCount = this.tetrahedronValues.length;
-    this.triangles = cornersOf(this.edges, triangleEdges);
+    this.tetrahedronFacets = /** @type {Uint32Array} */ (arrays.tetrahedron_facets);
+    this.triangleCount = triangleEdges.length / 3;
+    this.tetrahedronCount = this.tetrahedronFacets.length / 4;
+    const told = /** @type {Uint32Array | undefined} */ (arrays.triangle_corners);
+    this.triangles = told ?? cornersOf(this.edges, triangleEdges);
     this.cofaces = cofaceRanks(this.tetrahedronFacets, 4, this.triangleCount);
     /** The rank of the first triangle of each edge. */
     this.covered = cofaceRanks(triangleEdges, 3, this.edgeCount).first;
-    this.joined = firstEdges(this.edges, this.vertexCount);
 
-    this.values = [this.edgeValues, this.triangleValues, this.tetrahedronValues];
-    this.diagrams = diagramsOf(this.vertexCount, this.values, [loops, voids]);
-    this._loopsBegun = sumsBefore(marked(loops, this.edgeCount));
-    this._loopsEnded = sumsBefore(loops.map((creator) => (creator === NEVER ? 0 : 1)));
     this._verticesJoined = countsBelow(this.joined, this.edgeCount);
     this._edgesCovered = countsBelow(this.covered, this.triangleCount);
     this._entered = countsBelow(this.cofaces.first, this.tetrahedronCount);
     this._left = countsBelow(this.cofaces.last, this.tetrahedronCount);
-    const { volumes, areas } = this._measure();
-    this._volumes = sumsBefore(volumes);
-    this._areas = sumsBefore(areas);
+    const volumes = /** @type {Float32Array | undefined} */ (arrays.cell_sizes);
+    this._volumes = sumsBefore(volumes ?? this._measure());
+    const areas = /** @type {Float32Array | undefined} */ (arrays.facet_sizes);
+    this._areas = sumsBefore(this.borders(this.tetrahedronFacets, areas ?? this._faceAreas()));
     // From here on triangles run counter-clockwise seen from outside.
-    turn(this.triangles, /** @type {Uint8Array} */ (arrays.triangle_turned));
+    if (arrays.triangle_turned) turn(this.triangles, /** @type {Uint8Array} */ (arrays.triangle_turned));
+    /** Where the walls of a box cut tetrahedra, and when: nine coordinates each. */
+    this.caps = {
+      corners: /** @type {Float32Array} */ (arrays.caps ?? new Float32Array(0)),
+      ranks: /** @type {Uint32Array} */ (arrays.cap_ranks ?? new Uint32Array(0)),
+    };
+    /** @type {Patch | null} */
+    this.patch = this.box ? new Patch(this, 0) : null;
   }
 
-  /** Return how the volume and the area of the surface change with each tetrahedron. */
+  /** What is drawn. @returns {SpaceComplex | Patch} */
+  get seen() {
+    return this.patch ?? this;
+  }
+
+  /** Return the volume of each tetrahedron. */
   _measure() {
-    const volumes = new Float64Array(this.tetrahedronCount);
-    const areas = new Float64Array(this.tetrahedronCount);
-    const single = new Float64Array(this.triangleCount);
-    for (let f = 0; f < single.length; f++) single[f] = this.triangleArea(f);
-    for (let i = 0; i < this.tetrahedronFacets.length; i++) {
-      const f = this.tetrahedronFacets[i];
-      areas[i >> 2] += this.cofaces.first[f] === i >> 2 ? single[f] : -single[f];
-    }
-    for (let t = 0; t < volumes.length; t++) volumes[t] = this._volume(t);
-    return { volumes, areas };
+    return Float64Array.from({ length: this.tetrahedronCount }, (_, t) => this._volume(t));
+  }
+
+  /** Return the area of each triangle. */
+  _faceAreas() {
+    return Float64Array.from({ length: this.triangleCount }, (_, f) => this.triangleArea(f));
   }
 
   /** @param {number} f @returns {number} in units of the picture */
@@ -96,46 +82,32 @@ export class SpaceComplex {
     return [p[3 * b] - p[3 * a], p[3 * b + 1] - p[3 * a + 1], p[3 * b + 2] - p[3 * a + 2]];
   }
 
-  /** @param {number} e @returns {number} in units of the picture */
-  edgeLength(e) {
-    return Math.hypot(...this._step(this.edges[2 * e], this.edges[2 * e + 1]));
-  }
-
   /**
    * Return the facts at a radius, in time that does not depend on the size of the cloud.
    * @param {number} radius
    * @returns {Facts}
    */
   at(radius) {
-    const edges = countUpTo(this.edgeValues, radius);
-    const triangles = countUpTo(this.triangleValues, radius);
-    const tetrahedra = countUpTo(this.tetrahedronValues, radius);
-    const begun = this._loopsBegun[edges];
-    const ended = this._loopsEnded[triangles];
+    const present = this.present(radius);
+    const [vertices, edges, triangles, tetrahedra] = present;
     const entered = this._entered[tetrahedra];
     const interior = this._left[tetrahedra];
     const boundary = entered - interior;
     const { scale } = this.meta;
     return {
       radius,
-      present: [this.vertexCount, edges, triangles, tetrahedra],
-      betti: [this.vertexCount - (edges - begun), begun - ended, triangles - ended - tetrahedra],
-      isolated: this.vertexCount - this._verticesJoined[edges],
+      present,
+      shown: this.shown(present),
+      betti: this.betti(present),
+      isolated: vertices - this._verticesJoined[edges],
       singularEdges: edges - this._edgesCovered[triangles],
       singularTriangles: triangles - entered,
       boundary,
       interior,
       size: this._volumes[tetrahedra] * scale ** 3,
       border: boundary ? this._areas[tetrahedra] * scale ** 2 : 0,
+      full: this.isFull(present),
     };
-  }
-
-  /**
-   * Return the row of the cloud that a vertex is.
-   * @param {number} vertex
-   */
-  rowOf(vertex) {
-    return this.rows ? this.rows[vertex] : vertex;
   }
 }
 

@@ -65,7 +65,8 @@ export class Stage {
 
   _begin() {
     const antialias = this.picture.small || !isSoftware();
-    const wanted = { antialias, alpha: false, powerPreference: "high-performance" };
+    const stencil = this.picture.complex.ambient === 3;
+    const wanted = { antialias, alpha: false, stencil, powerPreference: "high-performance" };
     this.gl = this.canvas.getContext("webgl2", wanted);
     if (!this.gl) {
       this.element.append(

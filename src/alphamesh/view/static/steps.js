@@ -12,7 +12,7 @@ export class BettiCurve {
   constructor(diagram) {
     this.births = diagram.births.slice().sort();
     this.deaths = diagram.deaths.slice().sort();
-    this.essential = diagram.essential;
+    this.essential = diagram.essential.slice().sort();
   }
 
   /**
@@ -20,29 +20,29 @@ export class BettiCurve {
    * @param {number} radius
    */
   at(radius) {
-    const born = countUpTo(this.births, radius);
-    return this.essential + born - countUpTo(this.deaths, radius);
+    const born = countUpTo(this.births, radius) + countUpTo(this.essential, radius);
+    return born - countUpTo(this.deaths, radius);
   }
 }
 
 /**
  * Return every radius at which some class comes or goes, ascending, without repeats.
  * @param {BettiCurve[]} curves
+ * @param {number} [first] where the first vertices come, which is no change
  * @returns {Float64Array}
  */
-export function changesOf(curves) {
-  const size = curves.reduce((n, c) => n + c.births.length + c.deaths.length, 0);
-  const all = new Float64Array(size);
+export function changesOf(curves, first = 0) {
+  const parts = curves.flatMap((c) => [c.births, c.deaths, c.essential]);
+  const all = new Float64Array(parts.reduce((n, part) => n + part.length, 0));
   let at = 0;
-  for (const curve of curves) {
-    all.set(curve.births, at);
-    all.set(curve.deaths, at + curve.births.length);
-    at += curve.births.length + curve.deaths.length;
+  for (const part of parts) {
+    all.set(part, at);
+    at += part.length;
   }
   all.sort();
   let kept = 0;
   for (let i = 0; i < all.length; i++) {
-    if (all[i] > 0 && (kept === 0 || all[i] > all[kept - 1])) all[kept++] = all[i];
+    if (all[i] > first && (kept === 0 || all[i] > all[kept - 1])) all[kept++] = all[i];
   }
   return all.slice(0, kept);
 }

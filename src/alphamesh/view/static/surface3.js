@@ -1,15 +1,13 @@
 // Which triangles and edges are seen at a radius, as arrays for the GPU.
 
-import { dot } from "./camera3.js";
-
 /**
  * @typedef {import("./space.js").SpaceComplex} SpaceComplex
- * @typedef {import("./plane.js").Facts} Facts
+ * @typedef {import("./filtered.js").Facts} Facts
  */
 
 /** Picks simplices into arrays that are used again and again. */
 export class SurfacePicker {
-  /** @param {SpaceComplex} complex */
+  /** @param {SpaceComplex | import("./patch.js").Patch} complex what is drawn */
   constructor(complex) {
     this.complex = complex;
     /** Triangles: those of the boundary, then the singular ones. */
@@ -28,22 +26,20 @@ export class SurfacePicker {
    * including, that of its second one.
    * @param {Facts} facts
    */
-  pick({ present: [, edges, triangles, tetrahedra], boundary, singularTriangles, singularEdges }) {
+  pick({ present: [, , triangles, tetrahedra], shown }) {
     const { cofaces, covered } = this.complex;
-    const picked = new Uint32Array(boundary + /** @type {number} */ (singularTriangles));
-    let [at, alone] = [0, boundary];
-    for (let f = 0; f < triangles; f++) {
-      if (cofaces.first[f] >= tetrahedra) picked[alone++] = f;
-      else if (cofaces.last[f] >= tetrahedra) picked[at++] = f;
+    const [boundary, singular, lone] = [[], [], []].map((some) => /** @type {number[]} */ (some));
+    for (let f = 0; f < shown[2]; f++) {
+      if (cofaces.first[f] >= tetrahedra) singular.push(f);
+      else if (cofaces.last[f] >= tetrahedra) boundary.push(f);
     }
-    const lone = new Uint32Array(singularEdges);
-    for (let e = 0, k = 0; e < edges; e++) if (covered[e] >= triangles) lone[k++] = e;
-    this.triangles = picked;
-    this.boundary = at;
-    this.singular = alone - boundary;
+    for (let e = 0; e < shown[1]; e++) if (covered[e] >= triangles) lone.push(e);
+    this.boundary = boundary.length;
+    this.singular = singular.length;
     this.lone = lone.length;
-    this.corners = this._places(picked, this.complex.triangles, 3);
-    this.ends = this._places(lone, this.complex.edges, 2);
+    this.triangles = Uint32Array.from(boundary.concat(singular));
+    this.corners = this._places(this.triangles, this.complex.triangles, 3);
+    this.ends = this._places(Uint32Array.from(lone), this.complex.edges, 2);
   }
 
   /**
@@ -70,18 +66,18 @@ export class SurfacePicker {
    * Return the triangle that a ray hits first.
    * @param {number[]} from
    * @param {number[]} way
-   * @param {{normal: number[], offset: number} | null} cut what lies beyond it is not there
+   * @param {(place: number[]) => boolean} kept what is not, is not there
    * @param {{boundary: boolean, singular: boolean}} shown
    * @returns {number} -1 if there is none
    */
-  hit(from, way, cut, shown) {
+  hit(from, way, kept, shown) {
     let [best, nearest] = [-1, Infinity];
     const first = shown.boundary ? 0 : this.boundary;
     const end = this.boundary + (shown.singular ? this.singular : 0);
     for (let i = first; i < end; i++) {
       const t = crossing(this.corners, 9 * i, from, way);
       if (t >= nearest || t <= 0) continue;
-      if (cut && dot(cut.normal, from) + t * dot(cut.normal, way) > cut.offset) continue;
+      if (!kept(from.map((x, k) => x + t * way[k]))) continue;
       [best, nearest] = [this.triangles[i], t];
     }
     return best;

@@ -4,11 +4,13 @@
  * Return a number with four digits that count.
  * @param {number} value
  * @param {number} [digits]
+ * @returns {string}
  */
 export function number(value, digits = 4) {
   if (value === Infinity) return "∞";
   if (value === 0) return "0";
-  const size = Math.abs(value);
+  if (value < 0) return `−${number(-value, digits)}`;
+  const size = value;
   if (size >= 1e6 || size < 1e-4) {
     const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
     return `${trimmed(mantissa)}e${Number(exponent)}`;
@@ -41,29 +43,32 @@ export function counted(value, what, many = `${what}s`) {
 }
 
 /**
- * Read a radius as people write it: a number of at least 0, or infinity.
+ * Read a radius as people write it: a number, or infinity.
  * @param {string} text
+ * @param {boolean} [signed] whether it may be negative, as with weights
  * @returns {number | null}
  */
-export function readRadius(text) {
-  const word = text.trim().toLowerCase();
+export function readRadius(text, signed = false) {
+  const word = text.trim().toLowerCase().replace("−", "-");
   if (["inf", "infinity", "∞"].includes(word)) return Infinity;
   const value = word === "" ? NaN : Number(word.replace(",", "."));
-  return value >= 0 ? value : null;
+  return value >= 0 || (signed && value < 0) ? value : null;
 }
 
 /**
- * Return round numbers from 0 to `end`, about `wanted` of them.
+ * Return round numbers from `start` to `end`, about `wanted` of them.
  * @param {number} end
  * @param {number} wanted
+ * @param {number} [start]
  * @returns {number[]}
  */
-export function ticks(end, wanted) {
-  if (!(end > 0) || !Number.isFinite(end)) return [0];
-  const rough = end / wanted;
+export function ticks(end, wanted, start = 0) {
+  if (!(end > start) || !Number.isFinite(end - start)) return [start];
+  const rough = (end - start) / wanted;
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((k) => k * power).find((s) => s >= rough) ?? rough;
   const found = [];
-  for (let k = 0; k * step <= end * (1 + 1e-9); k++) found.push(k * step);
+  const slack = 1e-9 * rough;
+  for (let k = Math.ceil((start - slack) / step) || 0; k * step <= end + slack; k++) found.push(k * step);
   return found;
 }
