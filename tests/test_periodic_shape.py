@@ -72,7 +72,7 @@ def test_corners_are_in_one_piece_across_the_border():
 def test_what_has_no_meaning_says_so():
     flat = am.AlphaComplex([[0.1, 0.2]], periods=(1, 1))
     solid = am.AlphaComplex([[0.1, 0.2, 0.3]], periods=(1, 1, 1))
-    for name in ("delaunay", "convex_hull", "voronoi", "restricted_voronoi", "animate", "view"):
+    for name in ("delaunay", "convex_hull", "voronoi", "restricted_voronoi", "measure_curves"):
         with pytest.raises(PeriodicError, match=f"no '{name}'"):
             getattr(flat, name)
         assert not hasattr(solid, name)
