@@ -152,12 +152,7 @@ def test_power_cells_on_the_command_line(table):
 def test_views_without_a_meaning_are_refused(table, view):
     message = refused(1, "plot", table, "--weights", "w", "--view", view, "-o", "p.png")
     assert "balls of equal size" in message
-
-
-def test_views_with_a_frame_say_what_to_take_instead(table):
-    for view in ("frame", "outlines"):
-        text = refused(1, "plot", table, "--weights", "w", "--view", view, "-o", "a.png")
-        assert "take hull or delaunay" in text
+    assert "take hull or delaunay" in message
 
 
 def test_pages_and_films_of_weighted_points(table):
