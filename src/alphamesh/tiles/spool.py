@@ -13,6 +13,7 @@ import numpy as np
 from alphamesh._kernels.tiles import checksum
 from alphamesh.errors import FileReadError
 from alphamesh.io._atomic import atomic_path
+from alphamesh.tiles.direct import DirectReader, read_direct, write_direct
 
 if TYPE_CHECKING:
     from alphamesh._arrays import CountArray, FloatArray, IntArray
@@ -68,11 +69,12 @@ class Spool:
         ]
         sums = np.zeros(len(offsets) - 1, dtype=np.uint64)
         sums[np.flatnonzero(np.diff(offsets))] = [_sum_of(*part) for part in parts]
-        with atomic_path(self.path(chunk), forced=False) as path, path.open("wb") as file:
+        with atomic_path(self.path(chunk), forced=False) as path, write_direct(path) as file:
             table = offsets.tobytes() + sums.tobytes()
             file.write(checksum(table).to_bytes(8, "little") + table)
             for part in parts:
-                file.writelines(part)
+                for content in part:
+                    file.write(content)
 
     def holds(self, chunk: int) -> bool:
         """Tell whether the points of a chunk are there, by their checksums."""
@@ -82,9 +84,10 @@ class Spool:
                 if checksum(file.read(self._header - 8)) != total:
                     return False
                 offsets, sums = self._table(file, 0, self.tiles)
-                parts = zip(pairwise(offsets.tolist()), sums.tolist(), strict=True)
+            parts = zip(pairwise(offsets.tolist()), sums.tolist(), strict=True)
+            with read_direct(self.path(chunk)) as points:
                 return all(
-                    self._read(file, a, np.empty((b - a, self.dimension)), total) is not None
+                    self._read(points, a, np.empty((b - a, self.dimension)), total) is not None
                     for (a, b), total in parts
                     if a != b
                 )
@@ -126,7 +129,7 @@ class Spool:
             if start == end:
                 continue
             part = slice(done, done + end - start)
-            with self.path(chunk).open("rb") as file:
+            with read_direct(self.path(chunk)) as file:
                 found = self._read(file, start, points[part], total)
             if found is None:
                 raise FileReadError(f"{self.path(chunk)} is damaged; run the tiles again")
@@ -159,13 +162,12 @@ class Spool:
         raise FileReadError(f"{file.name} is damaged; run the tiles again")
 
     def _read(
-        self, file: BufferedReader, start: int, points: FloatArray, total: int
+        self, file: DirectReader, start: int, points: FloatArray, total: int
     ) -> IntArray | None:
         """Read points of one tile and return their rows; None if they are not as written."""
-        file.seek(self._header + self._point * start)
         rows = np.empty(len(points), dtype=np.int32)
         views = points.data.cast("B"), rows.data.cast("B")
-        whole = all(file.readinto(view) == len(view) for view in views)
+        whole = file.read_into(self._header + self._point * start, *views)
         return rows if whole and _sum_of(*views) == total else None
 
 

@@ -17,12 +17,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._arrays import read_only
-from alphamesh._kernels.tiles import checksum
-from alphamesh.errors import FileReadError, MissingLibraryError
+from alphamesh.errors import FileReadError
 from alphamesh.io._atomic import atomic_path
+from alphamesh.tiles.direct import checksum_of, write_direct
 from alphamesh.tiles.labels import Border
 from alphamesh.tiles.merge import Part, Summary, part_of
 from alphamesh.tiles.pieces import Boundary, Piece
+from alphamesh.tiles.parquet import write_parquet
 from alphamesh.tiles.spool import Spool
 from alphamesh.tiles.tiling import Tiling
 from alphamesh.tiles.weighing import WeightRange
@@ -34,18 +35,6 @@ __all__ = ["TABLES", "Store"]
 
 TABLES = ("vertices", "edges", "triangles", "tetrahedra")
 """The Parquet datasets in the folder, one file a tile in each; the last in space only."""
-
-# Rows and radii hardly repeat, and lie anywhere: to compress them or to note their ranges
-# takes longer than to write them. Where points lie is worth a note.
-_FORMAT: dict[str, Any] = {
-    "compression": "none",
-    "use_dictionary": ["kind"],
-    "write_statistics": ["x", "y", "z"],
-    "write_batch_size": 1 << 16,
-}
-
-# Bytes read at a time for a checksum: they stay in the processor's cache.
-_BLOCK = 1 << 20
 
 _RANGE = "weight_range"
 _MANIFEST, _PLAN, _SUMMARY = "manifest.json", "plan.npz", "summary.json"
@@ -142,10 +131,10 @@ class Store:
     def write_tile(self, piece: Piece) -> None:
         """Keep a finished tile: its simplices, and what the whole needs to know of it."""
         tables = TABLES[: len(piece.simplices)]
-        written = [self._write_table(name, piece) for name in tables]
+        files = dict(self._write_table(name, piece) for name in tables)
         name = self._summary(piece.tile)
         self._write_arrays(name, _flat(piece), forced=False)
-        files = {name: _checksum(self.folder / name) for name in (*written, name)}
+        files[name] = _shown(checksum_of(self.folder / name))
         record = {"tile": piece.tile, "files": files}
         self._write_json(self._record(piece.tile), record, forced=False)
 
@@ -180,22 +169,14 @@ class Store:
     def _record(self, tile: int) -> str:
         return f"tiles/{tile:06}.json"
 
-    def _write_table(self, name: str, piece: Piece) -> str:
-        try:
-            import pyarrow as pa
-            import pyarrow.parquet as pq
-        except ImportError as error:
-            raise MissingLibraryError.of("pyarrow", "tiles", "writing tiles") from error
-        file = f"{name}/part-{piece.tile:06}.parquet"
-        arrays = {key: pa.array(column) for key, column in _columns(name, piece).items()}
-        # Nothing is missing: pages without a note of that are written quicker.
-        schema = pa.schema(
-            [pa.field(key, column.type, nullable=False) for key, column in arrays.items()]
-        )
-        table = pa.table(arrays, schema=schema)
-        with atomic_path(self.folder / file, forced=False) as path:
-            pq.write_table(table, path, **_FORMAT)
-        return file
+    def _write_table(self, name: str, piece: Piece) -> tuple[str, str]:
+        """Write a table; return the name of its file, and the checksum."""
+        name_of_file = f"{name}/part-{piece.tile:06}.parquet"
+        target = self.folder / name_of_file
+        with atomic_path(target, forced=False) as path, write_direct(path) as file:
+            # Where points lie is worth a note; rows and radii lie anywhere.
+            write_parquet(file, _columns(name, piece), ranges="xyz")
+        return name_of_file, _shown(file.sum)
 
     # Files
 
@@ -231,13 +212,10 @@ class Store:
 
 def _checksum(path: Path) -> str | None:
     """Return the checksum of a file as it is read back; None if there is none."""
-    if not path.exists():
-        return None
-    block = memoryview(bytearray(_BLOCK))
-    total = 0
-    with path.open("rb", buffering=0) as file:
-        while size := file.readinto(block):
-            total = checksum(block[:size], total)
+    return _shown(checksum_of(path)) if path.exists() else None
+
+
+def _shown(total: int) -> str:
     return f"{total:016x}"
 
 
