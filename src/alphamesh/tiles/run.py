@@ -23,7 +23,7 @@ from alphamesh.tiles.pieces import solve
 from alphamesh.tiles.store import Store
 from alphamesh.tiles.tiling import Tiling, plan
 from alphamesh.tiles.weighing import WeightRange
-from alphamesh.tiles.workers import Workers, go_on, workers_of
+from alphamesh.tiles.workers import Workers, computing, go_on, workers_of
 
 if TYPE_CHECKING:
     from alphamesh._arrays import CountArray, FloatArray, IntArray
@@ -78,8 +78,8 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
     processes : int, optional
         How many for "local"; by default one for each CPU.
     threads : int, optional
-        At how many tiles this process works at a time if there is no cluster; by default
-        one for each CPU.
+        How many tiles this process computes at a time if there is no cluster, while it
+        reads or writes one or a few more; by default one for each CPU.
     overwrite : bool
         Delete another run's result in the folder.
     keep_chunks : bool
@@ -247,7 +247,8 @@ def _spread(chunk: Chunk, folder: Path, radius: float) -> None:
     assert tiling is not None
     spool = store.spool(tiling)
     if not spool.holds(chunk.number):
-        found = _sent(store, tiling, chunk.read_weighted(), radius)
+        with computing():
+            found = _sent(store, tiling, chunk.read_weighted(), radius)
         spool.write(chunk.number, *found)
 
 
@@ -257,7 +258,8 @@ def _solve_tile(tile: int, folder: Path, radius: float, row_type: Any) -> int:
     tiling = store.plan()
     assert tiling is not None
     rows, points = store.spool(tiling).points_of(tile, store.first_rows(), row_type)
-    piece = _solved(store, tiling, tile, rows, points, radius)
+    with computing():
+        piece = _solved(store, tiling, tile, rows, points, radius)
     store.write_tile(piece)
     return tile
 

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from typing import Any, Protocol, TypeVar
 
 from alphamesh._kernels import resolve_threads
 from alphamesh._kernels.tiles import Recycling
 from alphamesh.errors import MissingLibraryError, ParameterError
 
-__all__ = ["Workers", "go_on", "workers_of"]
+__all__ = ["Workers", "computing", "go_on", "workers_of"]
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 # How often a task is tried again whose worker has died.
 _RETRIES = 3
+
+# One more thread, which reads or writes, for so many that compute.
+_COMPUTING = 4
 
 _ours = threading.local()
 
@@ -46,6 +50,18 @@ def go_on(_fraction: float) -> None:
         raise _StoppedError
 
 
+@contextmanager
+def computing() -> Iterator[None]:
+    """Use a processor for a while; what a task does besides is reading and writing.
+
+    There are more threads than may compute at a time, so that no processor waits for the
+    disk. This waits until it is this thread's turn.
+    """
+    turns: threading.Semaphore | None = getattr(_ours, "turns", None)
+    with nullcontext() if turns is None else turns:
+        yield
+
+
 class _Here:
     """Work in this process: kernels let go of the interpreter, so that threads are enough."""
 
@@ -59,11 +75,13 @@ class _Here:
             yield from map(function, tasks)
             return
         stop = threading.Event()
+        turns = threading.Semaphore(self.threads)
+        others = math.ceil(self.threads / _COMPUTING)
 
         def begin() -> None:
-            _ours.stop = stop
+            _ours.stop, _ours.turns = stop, turns
 
-        with ThreadPoolExecutor(self.threads, initializer=begin) as pool:
+        with ThreadPoolExecutor(self.threads + others, initializer=begin) as pool:
             futures = [pool.submit(function, task) for task in tasks]
             try:
                 for future in as_completed(futures):
