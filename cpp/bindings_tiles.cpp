@@ -196,6 +196,9 @@ std::uint64_t checksum_py(const Bytes& bytes, std::uint64_t before) {
   return checksum(bytes.data(), bytes.shape(0), before);
 }
 
+// Bytes of any content, from the memory that kernels recycle.
+nb::object memory(std::size_t bytes) { return array(Buffer<std::uint8_t>(bytes)); }
+
 }  // namespace
 
 void bind_tiles(nb::module_& m) {
@@ -204,6 +207,7 @@ void bind_tiles(nb::module_& m) {
   m.def("spread", &spread_py, nb::arg("points"), nb::arg("axes"), nb::arg("low"), nb::arg("high"),
         nb::arg("below"), nb::arg("above"), nb::arg("progress").none());
   m.def("checksum", &checksum_py, nb::arg("content"), nb::arg("before"));
+  m.def("memory", &memory, nb::arg("bytes"));
   // While an object of this class lives, memory of kernels is kept for the next one.
   nb::class_<Recycling>(m, "Recycling").def(nb::init<>());
 }

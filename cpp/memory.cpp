@@ -28,7 +28,7 @@ void* copied(void* p, std::size_t bytes, std::size_t more) {
 namespace {
 
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
-constexpr std::size_t kLarge = kHugePage;
+constexpr std::size_t kLarge = kHugePage / 2;
 
 std::size_t whole_pages(std::size_t bytes) {
   return (bytes + kHugePage - 1) / kHugePage * kHugePage;

@@ -118,9 +118,10 @@ def scaled_radius(radius: float, exponent: int) -> float:
 def edge_lengths(points: FloatArray, edges: IntArray) -> FloatArray:
     """Return the length of each edge, ``(k,)`` float64, in the units of the points."""
     lengths = np.zeros(len(edges))
+    ends = points.take(edges, axis=0)
     with np.errstate(over="ignore"):
-        for axis in points.T:
-            np.hypot(lengths, axis.take(edges[:, 1]) - axis.take(edges[:, 0]), out=lengths)
+        for start, end in ends.transpose(2, 1, 0):
+            np.hypot(lengths, end - start, out=lengths)
     return lengths
 
 

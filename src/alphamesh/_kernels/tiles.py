@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -10,6 +11,8 @@ import numpy as np
 from alphamesh._kernels import _check_progress, _core, resolve_threads
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from alphamesh._arrays import CountArray, FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
 
@@ -19,6 +22,7 @@ __all__ = [
     "Share2",
     "Share3",
     "checksum",
+    "recycled",
     "spread",
     "tile2",
     "tile_share3",
@@ -27,6 +31,9 @@ __all__ = [
 Border = tuple[int, "CountArray", "IntArray"]
 Points = tuple["CountArray", "FloatArray", "CountArray"]
 """Rows, coordinates column by column, and the lowest rows with the same coordinates"""
+
+# Bytes from which on the core keeps memory.
+_RECYCLED = 1 << 20
 
 Recycling = _core.Recycling
 """While such an object lives, memory that kernels release is kept for the next ones."""
@@ -238,3 +245,17 @@ def checksum(content: bytes | memoryview, before: int = 0) -> int:
         The checksum of what comes before; its length must be a multiple of eight.
     """
     return _core.checksum(np.frombuffer(content, dtype=np.uint8), before)
+
+
+def recycled(shape: tuple[int, ...], dtype: Any) -> NDArray[Any]:
+    """Return an array of any content in memory that :class:`Recycling` keeps.
+
+    Parameters
+    ----------
+    shape : tuple of int
+    dtype : dtype
+    """
+    size = math.prod(shape) * np.dtype(dtype).itemsize
+    # Less would come from elsewhere.
+    memory = _core.memory(max(size, _RECYCLED))[:size]
+    return memory.view(dtype).reshape(shape)

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import os
-from io import BufferedReader
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alphamesh._kernels.tiles import checksum
+from alphamesh._kernels.tiles import checksum, recycled
 from alphamesh.errors import FileReadError
 from alphamesh.io._atomic import atomic_path
-from alphamesh.tiles.direct import DirectReader, read_direct, write_direct
+from alphamesh.tiles.direct import DirectReader, lent_block, write_direct
 
 if TYPE_CHECKING:
     from alphamesh._arrays import CountArray, FloatArray, IntArray
@@ -69,7 +67,10 @@ class Spool:
         ]
         sums = np.zeros(len(offsets) - 1, dtype=np.uint64)
         sums[np.flatnonzero(np.diff(offsets))] = [_sum_of(*part) for part in parts]
-        with atomic_path(self.path(chunk), forced=False) as path, write_direct(path) as file:
+        with (
+            atomic_path(self.path(chunk), forced=False) as path,
+            write_direct(path, summed=False) as file,
+        ):
             table = offsets.tobytes() + sums.tobytes()
             file.write(checksum(table).to_bytes(8, "little") + table)
             for part in parts:
@@ -79,15 +80,14 @@ class Spool:
     def holds(self, chunk: int) -> bool:
         """Tell whether the points of a chunk are there, by their checksums."""
         try:
-            with self.path(chunk).open("rb") as file:
-                total = int.from_bytes(file.read(8), "little")
-                if checksum(file.read(self._header - 8)) != total:
+            with lent_block() as block, DirectReader(self.path(chunk), block) as file:
+                head = file.peek(0, self._header)
+                if checksum(head[8:]) != int.from_bytes(head[:8], "little"):
                     return False
                 offsets, sums = self._table(file, 0, self.tiles)
-            parts = zip(pairwise(offsets.tolist()), sums.tolist(), strict=True)
-            with read_direct(self.path(chunk)) as points:
+                parts = zip(pairwise(offsets.tolist()), sums.tolist(), strict=True)
                 return all(
-                    self._read(points, a, np.empty((b - a, self.dimension)), total) is not None
+                    self._read(file, a, np.empty((b - a, self.dimension)), total) is not None
                     for (a, b), total in parts
                     if a != b
                 )
@@ -117,24 +117,26 @@ class Spool:
         FileReadError
             If a file is damaged.
         """
-        parts = []
-        for chunk in range(len(first_rows)):
-            with self.path(chunk).open("rb") as file:
-                offsets, sums = self._table(file, tile, 1)
-            parts.append((int(offsets[0]), int(offsets[1]), int(sums[0])))
-        count = sum(end - start for start, end, _ in parts)
-        rows, points = np.empty(count, dtype=dtype), np.empty((count, self.dimension))
-        done = 0
-        for chunk, (start, end, total) in enumerate(parts):
-            if start == end:
-                continue
-            part = slice(done, done + end - start)
-            with read_direct(self.path(chunk)) as file:
-                found = self._read(file, start, points[part], total)
-            if found is None:
-                raise FileReadError(f"{self.path(chunk)} is damaged; run the tiles again")
-            np.add(found, first_rows[chunk], out=rows[part], casting="unsafe")
-            done = part.stop
+        with lent_block() as block:
+            parts = []
+            for chunk in range(len(first_rows)):
+                with DirectReader(self.path(chunk), block) as file:
+                    (start, end), (total,) = (x.tolist() for x in self._table(file, tile, 1))
+                parts.append((start, end, total))
+            count = sum(end - start for start, end, _ in parts)
+            points = recycled((count, self.dimension), np.float64)
+            rows = recycled((count,), dtype)
+            done = 0
+            for chunk, (start, end, total) in enumerate(parts):
+                if start == end:
+                    continue
+                part = slice(done, done + end - start)
+                with DirectReader(self.path(chunk), block) as file:
+                    found = self._read(file, start, points[part], total)
+                if found is None:
+                    raise FileReadError(f"{self.path(chunk)} is damaged; run the tiles again")
+                np.add(found, rows.dtype.type(first_rows[chunk]), out=rows[part])
+                done = part.stop
         return rows, points
 
     def drop(self) -> None:
@@ -142,7 +144,7 @@ class Spool:
         for file in self.folder.glob("*.points"):
             file.unlink()
 
-    def _table(self, file: BufferedReader, first: int, count: int) -> tuple[CountArray, Any]:
+    def _table(self, file: DirectReader, first: int, count: int) -> tuple[CountArray, Any]:
         """Read where some tiles begin and end, and their checksums.
 
         Raises
@@ -150,13 +152,11 @@ class Spool:
         FileReadError
             If no file of this length can begin so.
         """
-        size = os.fstat(file.fileno()).st_size
-        if size >= self._header:
-            file.seek(8 * (1 + first))
-            offsets = np.frombuffer(file.read(8 * (count + 1)), dtype=np.int64)
-            file.seek(8 * (2 + self.tiles + first))
-            sums = np.frombuffer(file.read(8 * count), dtype=np.uint64)
-            most = (size - self._header) // self._point
+        if file.size >= self._header:
+            places = file.peek(8 * (1 + first), 8 * (count + 1))
+            offsets = np.frombuffer(places, dtype=np.int64)
+            sums = np.frombuffer(file.peek(8 * (2 + self.tiles + first), 8 * count), np.uint64)
+            most = (file.size - self._header) // self._point
             if offsets[0] >= 0 and (np.diff(offsets) >= 0).all() and offsets[-1] <= most:
                 return offsets, sums
         raise FileReadError(f"{file.name} is damaged; run the tiles again")
@@ -167,7 +167,7 @@ class Spool:
         """Read points of one tile and return their rows; None if they are not as written."""
         rows = np.empty(len(points), dtype=np.int32)
         views = points.data.cast("B"), rows.data.cast("B")
-        whole = file.read_into(self._header + self._point * start, *views)
+        whole = file.fill(self._header + self._point * start, *views)
         return rows if whole and _sum_of(*views) == total else None
 
 
