@@ -31,7 +31,7 @@ __all__ = ["DATASET_FORMATS", "Chunk", "Dataset", "dataset"]
 DATASET_FORMATS: tuple[str, ...] = tuple(FORMATS)
 """Extensions of files that :func:`dataset` reads; a folder holds files of one of them."""
 
-_CHUNK = 2_000_000
+_CHUNK = 5_000_000
 
 
 @dataclass(frozen=True, slots=True)

@@ -95,10 +95,11 @@ class Summary:
 
 def part_of(piece: Piece) -> Part:
     """Return what the whole needs to know of a piece."""
+    kinds = map(int, SimplexKind)  # with other integers, all would be converted
     return Part(
         len(piece.rows),
         read_only(np.array([len(rows) for rows in piece.simplices])),
-        read_only(np.array([np.count_nonzero(piece.facet_kinds == k) for k in SimplexKind])),
+        read_only(np.array([np.count_nonzero(piece.facet_kinds == k) for k in kinds])),
         piece.boundary_size,
         piece.region_sizes,
         piece.components,

@@ -24,7 +24,7 @@ __all__ = ["write_parquet"]
 
 _GROUP = 1 << 20
 """Rows of a row group, which readers take at a time."""
-_PAGE = 1 << 17
+_PAGE = 1 << 18
 """Rows of a page, a multiple of eight."""
 
 _MAGIC = b"PAR1"
