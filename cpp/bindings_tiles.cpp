@@ -197,7 +197,7 @@ std::uint64_t checksum_py(const Bytes& bytes, std::uint64_t before) {
 }
 
 // Bytes of any content, from the memory that kernels recycle.
-nb::object memory(std::size_t bytes) { return array(Buffer<std::uint8_t>(bytes)); }
+nb::object memory(std::size_t size) { return array(Buffer<std::uint8_t>(size)); }
 
 }  // namespace
 
@@ -207,7 +207,7 @@ void bind_tiles(nb::module_& m) {
   m.def("spread", &spread_py, nb::arg("points"), nb::arg("axes"), nb::arg("low"), nb::arg("high"),
         nb::arg("below"), nb::arg("above"), nb::arg("progress").none());
   m.def("checksum", &checksum_py, nb::arg("content"), nb::arg("before"));
-  m.def("memory", &memory, nb::arg("bytes"));
+  m.def("memory", &memory, nb::arg("size"));
   // While an object of this class lives, memory of kernels is kept for the next one.
   nb::class_<Recycling>(m, "Recycling").def(nb::init<>());
 }

@@ -257,5 +257,5 @@ def recycled(shape: tuple[int, ...], dtype: Any) -> NDArray[Any]:
     """
     size = math.prod(shape) * np.dtype(dtype).itemsize
     # Less would come from elsewhere.
-    memory = _core.memory(max(size, _RECYCLED))[:size]
-    return memory.view(dtype).reshape(shape)
+    memory: NDArray[Any] = _core.memory(max(size, _RECYCLED))[:size].view(dtype)
+    return memory.reshape(shape)

@@ -158,7 +158,9 @@ class DirectWriter:
 
 
 @contextmanager
-def write_direct(path: str | os.PathLike[str], *, summed: bool = True) -> Iterator[DirectWriter]:
+def write_direct(
+    path: str | os.PathLike[str], *, summed: bool = True
+) -> Iterator[DirectWriter]:
     """Open a file to write it anew.
 
     Parameters

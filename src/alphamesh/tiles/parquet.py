@@ -123,11 +123,12 @@ def _write_chunk(file: Output, name: str, column: NDArray[Any], *, noted: bool) 
     first = file.size
     for at in range(0, len(column), _PAGE):
         values = column[at : at + _PAGE]
-        header = _struct(
-            _i32(1, len(values)), _i32(2, encoding), _i32(3, _RLE), _i32(4, _RLE)
-        )
+        header = _struct(_i32(1, len(values)), _i32(2, encoding), _i32(3, _RLE), _i32(4, _RLE))
         _write_page(
-            file, _DATA_PAGE, _nested(5, header), *(_packed(values) if few else [_bytes(values)])
+            file,
+            _DATA_PAGE,
+            _nested(5, header),
+            *(_packed(values) if few else [_bytes(values)]),
         )
     size = file.size - start
     fields = [
@@ -175,7 +176,9 @@ def _range(column: NDArray[Any]) -> bytes:
     least, most = column.min(), column.max()
     if column.dtype.kind == "f":
         least, most = least - 0.0 if least else -0.0, most + 0.0
-    ends = (np.array(end, dtype=column.dtype.newbyteorder("<")).tobytes() for end in (most, least))
+    ends = (
+        np.array(end, dtype=column.dtype.newbyteorder("<")).tobytes() for end in (most, least)
+    )
     largest, smallest = map(_string, ends)
     return _struct(_i64(3, 0), (5, _BINARY, largest), (6, _BINARY, smallest))
 

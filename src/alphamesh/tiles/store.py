@@ -22,8 +22,8 @@ from alphamesh.io._atomic import atomic_path
 from alphamesh.tiles.direct import checksum_of, write_direct
 from alphamesh.tiles.labels import Border
 from alphamesh.tiles.merge import Part, Summary, part_of
-from alphamesh.tiles.pieces import Boundary, Piece
 from alphamesh.tiles.parquet import write_parquet
+from alphamesh.tiles.pieces import Boundary, Piece
 from alphamesh.tiles.spool import Spool
 from alphamesh.tiles.tiling import Tiling
 from alphamesh.tiles.weighing import WeightRange
