@@ -76,8 +76,8 @@ class Maker {
   // Bits of place_: in the tile; known to it, as a vertex; perhaps known to others.
   bool inside(Id v) const { return (place_[static_cast<std::size_t>(v)] & 1) != 0; }
   static constexpr std::uint8_t kKnown = 2, kShared = 4;
-  // Bits of known_.
-  static constexpr std::uint8_t kCell = 1;
+  // Bits of known_; with all corners in the tile.
+  static constexpr std::uint8_t kCell = 1, kInner = 2;
 
   bool first_inside(Id a, Id b) const { return inside(lexicographic(p_[a], p_[b]) ? a : b); }
 
@@ -126,7 +126,8 @@ class Maker {
   void keep_triangle(std::size_t t) {
     const Id* v = &mesh_.slot[8 * t];
     if (!mine(v[0], v[1], v[2])) return;
-    known_[t] = kCell;
+    const bool inner = inside(v[0]) & inside(v[1]) & inside(v[2]);
+    known_[t] = inner ? kCell | kInner : kCell;
     area_[t] = doubled_area(p_[v[0]], p_[v[1]], p_[v[2]]);
     Row a = row_[v[0]], b = row_[v[1]], c = row_[v[2]];
     sort3(a, b, c);
@@ -152,7 +153,10 @@ class Maker {
         count += collect(t, h + count);
       }
       for (std::size_t i = 0; i < count; ++i) {
-        block.set(i, p_[mesh_.origin(h[i])], p_[mesh_.origin(mesh_.twin(h[i]))]);
+        block.set(i, p_[mesh_.origin(h[i])], p_[mesh_.origin(Mesh2::next(h[i]))]);
+        const auto across = static_cast<std::size_t>(mesh_.twin(h[i]));
+        prefetch(&mesh_.slot[across]);
+        prefetch(&radius_[across / 8]);
       }
       Blocks<S>::measure(block, count, order_.lattice);
       for (std::size_t i = 0; i < count; ++i) {
@@ -186,7 +190,7 @@ class Maker {
                           Blocks<S>::attached(mesh_.slot[other + 7], g & 3);
     const double enter = std::min(radius_[s], radius_[t]);
     const double value[2] = {std::min(own, enter), enter};
-    const Id u = mesh_.origin(h), v = mesh_.origin(g);
+    const Id u = mesh_.origin(h), v = mesh_.origin(Mesh2::next(h));
     if (!(value[attached] <= limit_)) return;
     if (kWeighted) {
       double &first = least_[static_cast<std::size_t>(u)],
@@ -247,8 +251,8 @@ class Maker {
         label[t] = label[static_cast<std::size_t>(root)];
       }
       out_.region_sizes[static_cast<std::size_t>(label[t])] += area_[t];
+      if ((known_[t] & kInner) != 0) continue;
       const Id* v = &mesh_.slot[8 * t];
-      if (inside(v[0]) & inside(v[1]) & inside(v[2])) continue;
       Row a = row_[v[0]], b = row_[v[1]], c = row_[v[2]];
       sort3(a, b, c);
       border.keys.insert(border.keys.end(), {a, b, c});
