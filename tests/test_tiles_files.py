@@ -157,6 +157,10 @@ def test_others_read_the_tables(tmp_path, small, count):
         "long": rng.integers(-(2**62), 2**62, count),
         "x": rng.standard_normal(count),
         "kind": rng.integers(1, 4, count).astype(np.int8),
+        "same": np.full(count, -7, dtype=np.int8),
+        "sign": rng.integers(0, 2, count).astype(np.int8) * 2 - 1,
+        "move": rng.integers(-5, 6, count).astype(np.int8),
+        "byte": rng.integers(-128, 128, count).astype(np.int8),
     }
     path = tmp_path / "table.parquet"
     with write_direct(path) as file:

@@ -18,8 +18,6 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from alphamesh._arrays import KindArray
-
 __all__ = ["write_parquet"]
 
 _GROUP = 1 << 20
@@ -33,10 +31,6 @@ _PLAIN, _RLE, _RLE_DICTIONARY = 0, 3, 8
 
 # Physical type; type that it was converted from; bits of a number with a sign.
 _TYPES = {"i1": (1, 15, 8), "i4": (1, None, 0), "i8": (2, None, 0), "f8": (5, None, 0)}
-
-# Kinds are 1, 2 or 3, of which two bits of a page tell the place here.
-_KINDS = np.array([1, 2, 3], dtype="<i4")
-_KIND_BITS = 2
 
 
 class Output(Protocol):
@@ -57,7 +51,7 @@ def write_parquet(
     ----------
     file : Output
     columns : mapping from str to (n,) int32, int64, float64 or int8 array
-        Those of int8 hold 1, 2 and 3 only, and take two bits each.
+        Those of int8 take no more bits than they need: 1, 2, 4 or 8.
     ranges : iterable of str
         Columns of which least and greatest value are noted for each row group, without
         NaN among them.
@@ -115,21 +109,14 @@ def _element(name: str, column: NDArray[Any]) -> bytes:
 
 def _write_chunk(file: Output, name: str, column: NDArray[Any], *, noted: bool) -> _Chunk:
     start = file.size
-    few = _kind(column) == "i1"
-    encoding = _RLE_DICTIONARY if few else _PLAIN
-    if few:
-        header = _struct(_i32(1, len(_KINDS)), _i32(2, _PLAIN))
-        _write_page(file, _DICTIONARY_PAGE, _nested(7, header), _KINDS.tobytes())
+    words = _Words(file, column) if _kind(column) == "i1" else None
+    encoding = _PLAIN if words is None else _RLE_DICTIONARY
     first = file.size
     for at in range(0, len(column), _PAGE):
         values = column[at : at + _PAGE]
         header = _struct(_i32(1, len(values)), _i32(2, encoding), _i32(3, _RLE), _i32(4, _RLE))
-        _write_page(
-            file,
-            _DATA_PAGE,
-            _nested(5, header),
-            *(_packed(values) if few else [_bytes(values)]),
-        )
+        parts = [_bytes(values)] if words is None else words.packed(values)
+        _write_page(file, _DATA_PAGE, _nested(5, header), *parts)
     size = file.size - start
     fields = [
         _i32(1, _TYPES[_kind(column)][0]),
@@ -141,11 +128,43 @@ def _write_chunk(file: Output, name: str, column: NDArray[Any], *, noted: bool) 
         _i64(7, size),
         _i64(9, first),
     ]
-    if few:
+    if words is not None:
         fields.append(_i64(11, start))
     if noted:
         fields.append(_nested(12, _range(column)))
     return _Chunk(start, size, _struct(*fields))
+
+
+class _Words:
+    """The numbers from the least to the greatest of a column, a dictionary of its own.
+
+    Parameters
+    ----------
+    file : Output
+        The dictionary is written there.
+    column : (n,) int8 array
+    """
+
+    def __init__(self, file: Output, column: NDArray[np.int8]) -> None:
+        least, most = int(column.min()), int(column.max())
+        self._least = np.int8(least).view(np.uint8)
+        # A power of two, as bytes can be packed two by two then.
+        self._bits = next(bits for bits in (1, 2, 4, 8) if most - least < 1 << bits)
+        words = np.arange(least, most + 1, dtype="<i4")
+        header = _struct(_i32(1, len(words)), _i32(2, _PLAIN))
+        _write_page(file, _DICTIONARY_PAGE, _nested(7, header), words.tobytes())
+
+    def packed(self, values: NDArray[np.int8]) -> list[bytes | memoryview]:
+        """Return the places of values in the dictionary, in one run."""
+        groups = -(-len(values) // 8)
+        packed = np.zeros(8 * groups, dtype=np.uint8)
+        np.subtract(values.view(np.uint8), self._least, out=packed[: len(values)])
+        bits = self._bits
+        while bits < 8:
+            pairs = packed.view("<u2")
+            packed = (pairs | pairs >> np.uint16(8 - bits)).astype(np.uint8)
+            bits *= 2
+        return [bytes([self._bits]) + _varint(2 * groups + 1), packed.data]
 
 
 def _write_page(file: Output, kind: int, header: _Field, *parts: bytes | memoryview) -> None:
@@ -158,17 +177,6 @@ def _write_page(file: Output, kind: int, header: _Field, *parts: bytes | memoryv
 def _bytes(values: NDArray[Any]) -> memoryview:
     little = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))
     return little.view(np.uint8).data
-
-
-def _packed(kinds: KindArray) -> tuple[bytes, memoryview]:
-    """Return the places of kinds in the dictionary, in one run of two bits each."""
-    groups = -(-len(kinds) // 8)
-    places = np.ones(8 * groups, dtype=np.int8)
-    places[: len(kinds)] = kinds
-    four = places.view("<u4") - np.uint32(0x01010101)  # a place in each byte
-    four |= four >> np.uint32(6)
-    four |= four >> np.uint32(12)
-    return bytes([_KIND_BITS]) + _varint(2 * groups + 1), four.astype(np.uint8).data
 
 
 def _range(column: NDArray[Any]) -> bytes:
