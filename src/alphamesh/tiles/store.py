@@ -11,8 +11,9 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import asdict, fields
+from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -38,6 +39,12 @@ TABLES = ("vertices", "edges", "triangles", "tetrahedra")
 
 _RANGE = "weight_range"
 _MANIFEST, _PLAN, _SUMMARY = "manifest.json", "plan.npz", "summary.json"
+
+
+class _Plan(NamedTuple):
+    tiling: Tiling
+    first_rows: CountArray
+    weights: WeightRange | None
 
 
 class Store:
@@ -72,23 +79,28 @@ class Store:
 
     def plan(self) -> Tiling | None:
         """Return the tiling; None if there is none yet."""
-        arrays = self._arrays(_PLAN)
-        if arrays is None:
-            return None
-        dimension, *tree = (arrays[field.name] for field in fields(Tiling))
-        return Tiling(int(dimension), *tree)
+        known = self._known_plan()
+        return None if known is None else known.tiling
 
     def first_rows(self) -> CountArray:
         """Return the first row of each chunk of the data, once there is a plan."""
-        arrays = self._arrays(_PLAN)
-        assert arrays is not None
-        first_rows: CountArray = arrays["first_rows"]
-        return first_rows
+        known = self._known_plan()
+        assert known is not None
+        return known.first_rows
 
     def weight_range(self) -> WeightRange | None:
         """Return the range of the weights once there is a plan; None if there are none."""
-        found = (self._arrays(_PLAN) or {}).get(_RANGE)
-        return None if found is None else WeightRange(*found.tolist())
+        known = self._known_plan()
+        return None if known is None else known.weights
+
+    def _known_plan(self) -> _Plan | None:
+        """Return what :meth:`write_plan` kept, read once for all tasks of a process."""
+        path = self.folder / _PLAN
+        try:
+            state = path.stat()
+        except FileNotFoundError:
+            return None
+        return _plan_in(path, (state.st_mtime_ns, state.st_size, state.st_ino))
 
     def write_plan(
         self, tiling: Tiling, first_rows: CountArray, weights: WeightRange | None = None
@@ -197,10 +209,7 @@ class Store:
 
     def _arrays(self, name: str) -> dict[str, Any] | None:
         path = self.folder / name
-        if not path.exists():
-            return None
-        with np.load(path, allow_pickle=False) as arrays:
-            return {key: read_only(arrays[key]) for key in arrays.files}
+        return _arrays_in(path) if path.exists() else None
 
     def _write_arrays(self, name: str, arrays: dict[str, Any], *, forced: bool = True) -> None:
         with (
@@ -208,6 +217,20 @@ class Store:
             path.open("wb") as file,
         ):
             np.savez(file, **arrays)
+
+
+def _arrays_in(path: Path) -> dict[str, Any]:
+    with np.load(path, allow_pickle=False) as arrays:
+        return {key: read_only(arrays[key]) for key in arrays.files}
+
+
+@lru_cache(maxsize=1)
+def _plan_in(path: Path, _state: tuple[int, ...]) -> _Plan:
+    """Read a plan, unless the file is the same as the last time."""
+    arrays = _arrays_in(path)
+    dimension, *tree = (arrays[field.name] for field in fields(Tiling))
+    weights = WeightRange(*arrays[_RANGE].tolist()) if _RANGE in arrays else None
+    return _Plan(Tiling(int(dimension), *tree), arrays["first_rows"], weights)
 
 
 def _checksum(path: Path) -> str | None:
