@@ -304,6 +304,11 @@ def test_damaged_layers_of_points_are_refused(tmp_path):
         (tmp_path / "cut.laz").write_bytes(changed(whole, place, "<I", 2**32 - 5))
         with pytest.raises(FileReadError, match="table of packed chunks"):
             read_points(tmp_path / "cut.laz")
+    # Items that are said to be larger than they are hide the layers.
+    record = whole.index(b"laszip encoded") - 2 + 54
+    (tmp_path / "items.laz").write_bytes(changed(whole, record + 34 + 6 + 2, "<H", 11016))
+    with pytest.raises(FileReadError, match="table of packed chunks"):
+        read_points(tmp_path / "items.laz")
 
 
 @pytest.mark.parametrize("encoding", ["ASCII", "BINARY", "BINARY_COMPRESSED"])

@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 
 __all__ = ["laz_backend", "refuse_packed"]
 
-# Layers of the items of layered chunks, by their type; of extra bytes, one for each.
+# Bytes and layers of the items of layered chunks, by their type; of extra bytes, one for each.
+_SIZES = {10: 30, 11: 6, 12: 8, 13: 29}
 _LAYERS = {10: 9, 11: 1, 12: 2, 13: 1}
-_EXTRA_BYTES = 14
 # lazrs unpacks chunks side by side in room for whole ones. Writers make chunks of 50,000.
 _MOST_POINTS = 4_000_000
 
@@ -66,12 +66,15 @@ def refuse_packed(source: Source, file: BinaryIO, start: int) -> None:
     packing = _packing(file)
     if packing is None or not any(kind in _LAYERS for kind, _, _ in packing.items):
         return
+    if any(size != _SIZES.get(kind, size) for kind, size, _ in packing.items):
+        raise _damaged(source)
     layers = sum(_LAYERS.get(kind, size) for kind, size, _ in packing.items)
     head = sum(size for _, size, _ in packing.items) + 4
     for begin, end in _chunks(source, file, start, packing):
         file.seek(begin + head)
         sizes = file.read(4 * layers)
-        if end > table or sum(struct.unpack(f"<{len(sizes) // 4}I", sizes)) > end - begin:
+        short = len(sizes) < 4 * layers or end > table
+        if begin < end and (short or sum(struct.unpack(f"<{layers}I", sizes)) > end - begin):
             raise _damaged(source)
 
 
