@@ -1,21 +1,36 @@
-"""Balls at a radius: which of their simplices there are, and sizes that kernels can take."""
+"""Balls at a radius: which of their simplices there are, and what they measure together."""
 
 from __future__ import annotations
 
 import math
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from alphamesh._arrays import read_only
+from alphamesh._kernels.unions import Centres, measured_union
 from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import BoolArray, FloatArray
+    from alphamesh._arrays import BoolArray, FloatArray, IntArray
+    from alphamesh._kernels import Progress
+    from alphamesh._kernels.unions import Pieces
     from alphamesh.filtration import AnyFiltration
 
-__all__ = ["ball_radii", "finite_radius", "present", "rescaled", "scaled", "unscaled"]
+__all__ = [
+    "Measured",
+    "ball_radii",
+    "chosen_holes",
+    "finite_radius",
+    "largest_first",
+    "measured",
+    "present",
+    "rescaled",
+    "scaled",
+    "scaled_squares",
+    "unscaled",
+]
 
 # Coordinates that the kernels take as they are, and to which size they bring others. So
 # neither a product of four lengths nor one of two areas leaves the range of float64.
@@ -92,8 +107,8 @@ def _power(radius: float) -> float:
 
 def scaled(
     filtration: AnyFiltration, radius: float, *, alone: bool
-) -> tuple[FloatArray, FloatArray | None, float, int]:
-    """Return points, weights and squared radius over powers of two, and the exponent.
+) -> tuple[Centres, int]:
+    """Return balls whose lengths are divided by a power of two, and its exponent.
 
     Where all balls are `alone`, only their own size counts, and no point is looked at.
     """
@@ -102,7 +117,7 @@ def scaled(
     sizes = np.abs(points)
     largest = float(sizes.max(initial=0.0))
     least = float(sizes.min(initial=np.inf, where=sizes > 0))
-    span = max(abs(radius), 0.0 if weights is None else _root(np.abs(weights).max(initial=0.0)))
+    span = _largest_radius(weights, radius)
     exponent = 0
     if alone:
         exponent = math.frexp(span)[1]
@@ -110,16 +125,36 @@ def scaled(
         exponent = int(np.frexp(largest)[1]) - _SCALED_TO[dimension]
     elif span >= _LARGEST_RADIUS:
         exponent = int(np.frexp(span)[1]) - 250
+    if exponent and not alone:
+        points = np.ldexp(points, -exponent)
+    return Centres(points, *scaled_squares(weights, radius, exponent)), exponent
+
+
+def _largest_radius(weights: FloatArray | None, radius: float) -> float:
+    """Return what no ball is larger than, but for a factor below two."""
+    heaviest = 0.0 if weights is None else float(np.abs(weights).max(initial=0.0))
+    return max(abs(radius), _root(heaviest))
+
+
+def scaled_squares(
+    weights: FloatArray | None, radius: float, exponent: int
+) -> tuple[FloatArray | None, float]:
+    """Return weights and the signed square of the radius over ``4**exponent``.
+
+    Raises
+    ------
+    ParameterError
+        If they are too large for that.
+    """
+    span = _largest_radius(weights, radius)
     if math.frexp(span)[1] - exponent > 250:
         raise ParameterError(
             f"a radius of {span:.6g} is too large beside coordinates as small as these; "
             "scale the points up"
         )
-    if exponent:
-        points = points if alone else np.ldexp(points, -exponent)
-        if weights is not None:
-            weights = np.ldexp(weights, -2 * exponent)
-    return points, weights, _power(math.ldexp(radius, -exponent)), exponent
+    if weights is not None and exponent:
+        weights = np.ldexp(weights, -2 * exponent)
+    return weights, _power(math.ldexp(radius, -exponent))
 
 
 def rescaled(array: FloatArray, exponent: int) -> FloatArray:
@@ -134,3 +169,54 @@ def unscaled(value: float, exponent: int) -> float:
     """Return `value` times a power of two, 0 or infinite where that leaves the range."""
     with np.errstate(over="ignore", under="ignore"):
         return float(np.ldexp(value, exponent))
+
+
+class Measured(NamedTuple):
+    """The measures of a union, and of the parts of its complement, `labels` of cells."""
+
+    content: float
+    contents: FloatArray
+    borders: FloatArray
+    labels: IntArray
+    hole_contents: FloatArray
+    hole_borders: FloatArray
+
+
+def measured(
+    centres: Centres,
+    pieces: Pieces,
+    exponent: int,
+    threads: int | None,
+    progress: Progress | None,
+) -> Measured:
+    """Return the measures of balls whose lengths are divided by ``2**exponent``."""
+    content, contents, borders, hole_contents, hole_borders = measured_union(
+        centres, pieces, threads, progress
+    )
+    d = centres.high.shape[1]
+    return Measured(
+        unscaled(content, d * exponent),
+        rescaled(contents, d * exponent),
+        rescaled(borders, (d - 1) * exponent),
+        pieces.holes,
+        rescaled(hole_contents, d * exponent),
+        rescaled(hole_borders, (d - 1) * exponent),
+    )
+
+
+def largest_first(sizes: FloatArray, rows: IntArray | None = None) -> IntArray:
+    """Return numbers of holes, by default all, those of the largest first."""
+    if rows is None:
+        rows = np.arange(len(sizes))
+    return rows.take(np.argsort(-sizes.take(rows), kind="stable"))
+
+
+def chosen_holes(found: Measured, order: IntArray) -> Measured:
+    """Return the measures with some of the holes alone, in another order."""
+    places = np.full(len(found.hole_contents) + 1, -1, dtype=np.int32)
+    places[order] = np.arange(len(order), dtype=np.int32)  # the last one, of -1, stays
+    return found._replace(
+        labels=read_only(places.take(found.labels)),
+        hole_contents=read_only(found.hole_contents.take(order)),
+        hole_borders=read_only(found.hole_borders.take(order)),
+    )

@@ -14,6 +14,7 @@ from alphamesh.periodic import (
     choose_periodic_radius,
     periodic_filtration,
     periodic_persistence,
+    periodic_union,
     tiled_points,
 )
 from alphamesh.shown import Shown
@@ -26,7 +27,12 @@ if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
     from alphamesh.film import Film
-    from alphamesh.periodic import PeriodicFiltration, PeriodicPersistence
+    from alphamesh.periodic import (
+        PeriodicFiltration,
+        PeriodicPersistence,
+        PeriodicUnionOfBalls,
+        PeriodicUnionOfDiscs,
+    )
     from alphamesh.plot import Drawing
     from alphamesh.radius import RadiusChoice
 
@@ -191,6 +197,24 @@ class PeriodicComplex(Exports, Shown):
         if radius is None:
             radius = self.choose_radius().radius
         return PeriodicShape(self._filtration, radius)
+
+    def union(
+        self, radius: float | None = None, **options: Any
+    ) -> PeriodicUnionOfDiscs | PeriodicUnionOfBalls:
+        """Measure the union of the balls of `radius` and of all their copies, per box.
+
+        Parameters
+        ----------
+        radius : float, optional
+            Finite, in the units of the points; by default the one that
+            :meth:`choose_radius` chooses.
+        **options
+            ``threads`` and ``progress``: see :func:`alphamesh.union_of_balls`, also for
+            the errors.
+        """
+        if radius is None:
+            radius = self.choose_radius().radius
+        return periodic_union(self._filtration, radius, **options)
 
     def critical_radii(self) -> FloatArray:
         """Return every radius at which the complex changes, ascending, without repeats.

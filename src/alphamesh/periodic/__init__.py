@@ -7,18 +7,30 @@ from alphamesh.periodic._persistence import PeriodicPersistence, periodic_persis
 from alphamesh.periodic._radius import PERIODIC_RULES, choose_periodic_radius
 from alphamesh.periodic._shape import PeriodicShape
 from alphamesh.periodic._tiling import tiled_points
+from alphamesh.periodic._union import (
+    BallChannels,
+    DiscChannels,
+    PeriodicUnionOfBalls,
+    PeriodicUnionOfDiscs,
+    periodic_union,
+)
 
 __all__ = [
     "PERIODIC_RULES",
+    "BallChannels",
     "BoxCloud",
+    "DiscChannels",
     "PeriodicFiltration",
     "PeriodicPersistence",
     "PeriodicShape",
+    "PeriodicUnionOfBalls",
+    "PeriodicUnionOfDiscs",
     "as_periods",
     "box_cloud",
     "choose_periodic_radius",
     "periodic_filtration",
     "periodic_persistence",
+    "periodic_union",
     "tiled_points",
     "wrapped_points",
 ]
