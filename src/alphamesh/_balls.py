@@ -13,10 +13,15 @@ from alphamesh._kernels.unions import Centres, measured_union
 from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import BoolArray, FloatArray, IntArray
+    from typing import TypeAlias
+
+    from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray
     from alphamesh._kernels import Progress
     from alphamesh._kernels.unions import Pieces
     from alphamesh.filtration import AnyFiltration
+    from alphamesh.periodic import PeriodicFiltration
+
+    Balls: TypeAlias = AnyFiltration | PeriodicFiltration
 
 __all__ = [
     "Measured",
@@ -43,7 +48,7 @@ _LARGEST_RADIUS = 2.0**250
 _CLOSE = 2e-12
 
 
-def finite_radius(radius: object, filtration: AnyFiltration) -> float:
+def finite_radius(radius: object, filtration: Balls) -> float:
     """Return `radius` as a float, or say what is wrong with it."""
     if isinstance(radius, Real) and math.isfinite(value := float(radius)):
         if value >= 0 or filtration.weights is not None:
@@ -65,7 +70,7 @@ def ball_radii(weights: FloatArray | None, radius: float, count: int) -> FloatAr
     return read_only(np.ldexp(np.sqrt(np.maximum(squares, 0.0)), exponent))
 
 
-def present(filtration: AnyFiltration, radius: float) -> tuple[BoolArray, ...]:
+def present(filtration: Balls, radius: float) -> tuple[BoolArray, ...]:
     """Return which rows and which simplices of each higher dimension there are at `radius`."""
     vertex = np.zeros(len(filtration.points), dtype=np.bool_)
     vertex[filtration.simplices[0][:, 0]] = filtration.radii[0] <= radius
@@ -73,7 +78,7 @@ def present(filtration: AnyFiltration, radius: float) -> tuple[BoolArray, ...]:
     return vertex, *(radii <= last for radii in filtration.radii[1:])
 
 
-def _settled(filtration: AnyFiltration, radius: float) -> float:
+def _settled(filtration: Balls, radius: float) -> float:
     """Return the value from `radius` on after which none follows too closely.
 
     Values carry rounding errors. Of two that hardly differ, the larger may truly be the
@@ -105,9 +110,7 @@ def _power(radius: float) -> float:
     return math.copysign(radius * radius, radius)
 
 
-def scaled(
-    filtration: AnyFiltration, radius: float, *, alone: bool
-) -> tuple[Centres, int]:
+def scaled(filtration: AnyFiltration, radius: float, *, alone: bool) -> tuple[Centres, int]:
     """Return balls whose lengths are divided by a power of two, and its exponent.
 
     Where all balls are `alone`, only their own size counts, and no point is looked at.
@@ -204,14 +207,13 @@ def measured(
     )
 
 
-def largest_first(sizes: FloatArray, rows: IntArray | None = None) -> IntArray:
-    """Return numbers of holes, by default all, those of the largest first."""
-    if rows is None:
-        rows = np.arange(len(sizes))
-    return rows.take(np.argsort(-sizes.take(rows), kind="stable"))
+def largest_first(sizes: FloatArray, wanted: BoolArray | None = None) -> CountArray:
+    """Return numbers of holes, of the `wanted` ones or of all, those of the largest first."""
+    order = np.argsort(-sizes, kind="stable")
+    return order if wanted is None else order.compress(wanted.take(order))
 
 
-def chosen_holes(found: Measured, order: IntArray) -> Measured:
+def chosen_holes(found: Measured, order: CountArray) -> Measured:
     """Return the measures with some of the holes alone, in another order."""
     places = np.full(len(found.hole_contents) + 1, -1, dtype=np.int32)
     places[order] = np.arange(len(order), dtype=np.int32)  # the last one, of -1, stays

@@ -325,9 +325,7 @@ def _of_discs(
 ) -> UnionOfDiscs:
     found = _measured(filtration, radius, threads, progress)
     holes = UnionHoles(found.labels, found.hole_contents, found.hole_borders)
-    return UnionOfDiscs(
-        filtration, radius, found.content, found.contents, found.borders, holes
-    )
+    return UnionOfDiscs(filtration, radius, found.content, found.contents, found.borders, holes)
 
 
 def _of_balls(
@@ -335,9 +333,7 @@ def _of_balls(
 ) -> UnionOfBalls:
     found = _measured(filtration, radius, threads, progress)
     voids = UnionVoids(found.labels, found.hole_contents, found.hole_borders)
-    return UnionOfBalls(
-        filtration, radius, found.content, found.contents, found.borders, voids
-    )
+    return UnionOfBalls(filtration, radius, found.content, found.contents, found.borders, voids)
 
 
 def _measured(

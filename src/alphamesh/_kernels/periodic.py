@@ -14,7 +14,14 @@ if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
 
-__all__ = ["Layer", "Star", "periodic_check", "periodic_complex", "periodic_parts", "periodic_star"]
+__all__ = [
+    "Layer",
+    "Star",
+    "periodic_check",
+    "periodic_complex",
+    "periodic_parts",
+    "periodic_star",
+]
 
 
 class Star(NamedTuple):

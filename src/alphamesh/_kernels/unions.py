@@ -61,8 +61,7 @@ class Pieces(NamedTuple):
         has.
     holes : (c,) int32
         The hole of the complex that each cell lies in, below zero for none.
-    count : int
-        How many holes there are.
+    hole_count : int
     """
 
     simplices: tuple[IntArray, ...]
@@ -70,7 +69,7 @@ class Pieces(NamedTuple):
     cofaces: IntArray
     has: tuple[BoolArray, ...]
     holes: IntArray
-    count: int
+    hole_count: int
 
 
 def measured_union(
@@ -94,7 +93,7 @@ def measured_union(
         Area in the plane, volume in space.
     contents, borders : (n,) float64
         Of each ball in its power cell; of its part of the boundary.
-    hole_contents, hole_borders : (count,) float64
+    hole_contents, hole_borders : (hole_count,) float64
     """
     kernel = _core.union2 if centres.high.shape[1] == 2 else _core.union3
     threads = resolve_threads(threads)
@@ -110,7 +109,7 @@ def measured_union(
         pieces.has,
         pieces.cofaces,
         pieces.holes,
-        pieces.count,
+        pieces.hole_count,
         threads,
         progress,
     )

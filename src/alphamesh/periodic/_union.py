@@ -75,8 +75,24 @@ class BallChannels(UnionVoids):
         return f"<BallChannels: {len(self):,}>"
 
 
+class _InBox:
+    """What unions of discs and of balls in a box have in common."""
+
+    filtration: PeriodicFiltration
+    channels: DiscChannels | BallChannels
+
+    @property
+    def points(self) -> FloatArray:
+        """The centres in the box, ``(n, d)`` float64."""
+        return self.filtration.positions
+
+    def __repr__(self) -> str:
+        count = len(self.channels)
+        return f"<Periodic{super().__repr__()[1:-1]}, {count:,} channel{'s' * (count != 1)}>"
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class PeriodicUnionOfDiscs(UnionOfDiscs):
+class PeriodicUnionOfDiscs(_InBox, UnionOfDiscs):
     """The union of the discs of a periodic box and of all their copies: what one box holds.
 
     As :class:`~alphamesh.unions.UnionOfDiscs`. A disc may overlap its own copies. Holes are
@@ -107,12 +123,9 @@ class PeriodicUnionOfDiscs(UnionOfDiscs):
         """
         return self._cells_of(self.channels.labels, channel, len(self.channels), "channel")
 
-    def __repr__(self) -> str:
-        return _with_channels(super().__repr__(), len(self.channels))
-
 
 @dataclass(frozen=True, eq=False, repr=False)
-class PeriodicUnionOfBalls(UnionOfBalls):
+class PeriodicUnionOfBalls(_InBox, UnionOfBalls):
     """The union of the balls of a periodic box and of all their copies: what one box holds.
 
     As :class:`~alphamesh.unions.UnionOfBalls`. A ball may overlap its own copies. Voids are
@@ -142,13 +155,6 @@ class PeriodicUnionOfBalls(UnionOfBalls):
             If there is no such channel.
         """
         return self._cells_of(self.channels.labels, channel, len(self.channels), "channel")
-
-    def __repr__(self) -> str:
-        return _with_channels(super().__repr__(), len(self.channels))
-
-
-def _with_channels(text: str, count: int) -> str:
-    return f"<Periodic{text[1:-1]}, {count:,} channel{'s' * (count != 1)}>"
 
 
 def periodic_union(
@@ -183,10 +189,8 @@ def periodic_union(
         )
     radius = finite_radius(radius, given)
     found, ranks = _measured(given, radius, threads, progress)
-    holes, channels = (
-        largest_first(found.hole_contents, np.flatnonzero(kind))
-        for kind in (ranks == 0, ranks > 0)
-    )
+    holes = largest_first(found.hole_contents, ranks == 0)
+    channels = largest_first(found.hole_contents, ranks > 0)
     return _named(
         given,
         radius,
