@@ -162,8 +162,8 @@ nb::object periodic_check(const Ids& cells, const Offsets& offsets, const Ids& f
 // The part of each cell, -1 for none, and the rank of each part.
 nb::tuple periodic_parts(const Offsets& second, const Ids& faces, const Ids& facet_cells,
                          const Flags& inside, const Flags& wall) {
-  const BoxCells cells{second.data(),   faces.data(),       faces.shape(0),
-                       faces.shape(1),  facet_cells.data(), facet_cells.shape(0)};
+  const BoxCells cells{second.data(),  faces.data(),       faces.shape(0),
+                       faces.shape(1), facet_cells.data(), facet_cells.shape(0)};
   Job job(1);
   WoundParts out;
   run_watched(job, cells.count, nb::none(),

@@ -42,7 +42,7 @@ nb::tuple union_py(const Table& high, const std::optional<Table>& low,
                   corners[k].shape(0)};
   }
   view.has_vertex = there[0].data();
-  view.centres = {high.data(),       data_or_null(low),  data_or_null(weights),
+  view.centres = {high.data(),       data_or_null(low), data_or_null(weights),
                   data_or_null(row), there[0].shape(0), power};
   view.cofaces = cofaces.data();
   view.hole = hole.data();

@@ -72,8 +72,8 @@ class Union2 {
   UnionMeasures out_;
   CarefulSum total_;
   Balls balls_;
-  Buffer<double> turn_;             // how much of its circle is on the boundary
-  Buffer<bool> joined_, open_;      // discs with edges; those that have some of the boundary
+  Buffer<double> turn_;         // how much of its circle is on the boundary
+  Buffer<bool> joined_, open_;  // discs with edges; those that have some of the boundary
 };
 
 Union2::Union2(const UnionView& view, Job& job)

@@ -112,7 +112,8 @@ void Union3::count() {
   job_.poll();
   for (std::size_t f = 0; f < view_.triangles.count; ++f) {
     if (!view_.triangles.has[f]) continue;
-    const std::uint8_t state = view_.open_sides(f, view_.tetrahedra) > 0 ? kSpanned | kOpen : kSpanned;
+    const std::uint8_t state =
+        view_.open_sides(f, view_.tetrahedra) > 0 ? kSpanned | kOpen : kSpanned;
     for (std::size_t k = 0; k < 3; ++k) {
       ++euler_[balls_.row(view_.triangles.corner[3 * f + k])];
       state_[at(view_.triangles.side[3 * f + k])] |= state;
@@ -214,7 +215,13 @@ CellRecord Union3::cell(std::size_t t) const {
   if (thin) det = volume_accurate(p[0], p[1], p[2], p[3]);
   for (int k = 0; k < 4; ++k) {  // inward
     const Place3 &a = p[kFaceOf[k][0]], &b = p[kFaceOf[k][1]], &c = p[kFaceOf[k][2]];
-    normal[k] = thin ? normal_accurate(a, b, c) : cross(b - a, c - a);
+    const Vector along = b - a, across = c - a;
+    normal[k] = cross(along, across);
+    // Two far corners may almost coincide.
+    if (thin ||
+        !(dot(normal[k], normal[k]) > kThin * kThin * dot(along, along) * dot(across, across))) {
+      normal[k] = normal_accurate(a, b, c);
+    }
     if ((k % 2 == 0) == (det > 0.0)) normal[k] = {-normal[k].x, -normal[k].y, -normal[k].z};
   }
   const double size = std::fabs(det);

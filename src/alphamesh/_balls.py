@@ -72,9 +72,9 @@ def ball_radii(weights: FloatArray | None, radius: float, count: int) -> FloatAr
 
 def present(filtration: Balls, radius: float) -> tuple[BoolArray, ...]:
     """Return which rows and which simplices of each higher dimension there are at `radius`."""
-    vertex = np.zeros(len(filtration.points), dtype=np.bool_)
-    vertex[filtration.simplices[0][:, 0]] = filtration.radii[0] <= radius
     last = _settled(filtration, radius)
+    vertex = np.zeros(len(filtration.points), dtype=np.bool_)
+    vertex[filtration.simplices[0][:, 0]] = filtration.radii[0] <= last
     return vertex, *(radii <= last for radii in filtration.radii[1:])
 
 
