@@ -85,21 +85,6 @@ class PeriodicComplex(Exports, Shown):
         return self._filtration.periods
 
     @property
-    def crs(self) -> Any:
-        """The coordinate reference system that came with the points, or None."""
-        return self._filtration.crs
-
-    @property
-    def weights(self) -> FloatArray | None:
-        """Squared radii of the balls, ``(n,)`` float64; None for balls of equal size."""
-        return self._filtration.weights
-
-    @property
-    def hidden(self) -> IntArray:
-        """Rows that heavier points leave no part of the power diagram, ``(h,)`` int32."""
-        return self._filtration.hidden
-
-    @property
     def representative(self) -> IntArray:
         """The lowest row at the same place of the box, ``(n,)`` int32."""
         return self._filtration.representative
@@ -300,12 +285,6 @@ class PeriodicComplex(Exports, Shown):
 
     def __repr__(self) -> str:
         return repr(self._filtration).replace("PeriodicFiltration", "PeriodicComplex")
-
-    def __copy__(self) -> PeriodicComplex:
-        return self
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> PeriodicComplex:
-        return self
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         return PeriodicComplex, (self._filtration,)
