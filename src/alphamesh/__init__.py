@@ -39,7 +39,13 @@ if TYPE_CHECKING:
     from alphamesh.io.points import read_points, read_table
     from alphamesh.molecule import Molecule
     from alphamesh.outline import Rings
-    from alphamesh.periodic import PeriodicFiltration, PeriodicPersistence, PeriodicShape
+    from alphamesh.periodic import (
+        PeriodicFiltration,
+        PeriodicPersistence,
+        PeriodicShape,
+        PeriodicUnionOfBalls,
+        PeriodicUnionOfDiscs,
+    )
     from alphamesh.periodic_complex import PeriodicComplex
     from alphamesh.persistence import Persistence, persistence
     from alphamesh.planar import Selection

@@ -1,6 +1,7 @@
 """Alpha complexes of periodic boxes: a box that stands for all of space, filled with copies."""
 
 from alphamesh.periodic._box import BoxCloud, as_periods, box_cloud, wrapped_points
+from alphamesh.periodic._cycles import PeriodicRings, PeriodicShells
 from alphamesh.periodic._filtration import PeriodicFiltration
 from alphamesh.periodic._making import periodic_filtration
 from alphamesh.periodic._persistence import PeriodicPersistence, periodic_persistence
@@ -22,7 +23,9 @@ __all__ = [
     "DiscChannels",
     "PeriodicFiltration",
     "PeriodicPersistence",
+    "PeriodicRings",
     "PeriodicShape",
+    "PeriodicShells",
     "PeriodicUnionOfBalls",
     "PeriodicUnionOfDiscs",
     "as_periods",
