@@ -83,11 +83,6 @@ double cross_of(Dd p, Dd q, Dd r, Dd s) {  // p q - r s
   return (expansion(p) * expansion(q) - expansion(r) * expansion(s)).estimate();
 }
 
-Dd difference(double high_a, double low_a, double high_b, double low_b) {
-  const Dd high = two_diff(high_a, high_b), low = two_diff(low_a, low_b);
-  return low.h == 0.0 ? high : high + low;
-}
-
 }  // namespace
 
 double cross_accurate(Point2 a, Point2 b, Point2 c) {
@@ -95,10 +90,8 @@ double cross_accurate(Point2 a, Point2 b, Point2 c) {
 }
 
 double cross_accurate(const Place2& a, const Place2& b, const Place2& c) {
-  return cross_of(difference(b.high.x, b.low.x, a.high.x, a.low.x),
-                  difference(c.high.y, c.low.y, a.high.y, a.low.y),
-                  difference(b.high.y, b.low.y, a.high.y, a.low.y),
-                  difference(c.high.x, c.low.x, a.high.x, a.low.x));
+  return cross_of(wide_difference(b.x(), a.x()), wide_difference(c.y(), a.y()),
+                  wide_difference(b.y(), a.y()), wide_difference(c.x(), a.x()));
 }
 
 }  // namespace alphamesh

@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "exact.hpp"
+
 namespace alphamesh {
 
 struct Point2 {
@@ -18,6 +20,9 @@ inline Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
 // A point whose coordinates are sums of two doubles, the first rounded: a copy in a periodic box.
 struct Place2 {
   Point2 high, low;
+
+  Dd x() const { return {high.x, low.x}; }
+  Dd y() const { return {high.y, low.y}; }
 };
 
 inline Point2 operator-(const Place2& a, const Place2& b) {

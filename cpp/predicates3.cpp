@@ -64,11 +64,9 @@ bool in_sphere_perturbed(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e,
 
 namespace {
 
-Dd sum_of(Dd high, Dd low) { return low.h == 0.0 ? high : high + low; }
-
 Vector3<Dd> difference(const Place3& a, const Place3& b) {
-  const Vector3<Dd> high = difference(a.high, b.high), low = difference(a.low, b.low);
-  return {sum_of(high.x, low.x), sum_of(high.y, low.y), sum_of(high.z, low.z)};
+  return {wide_difference(a.x(), b.x()), wide_difference(a.y(), b.y()),
+          wide_difference(a.z(), b.z())};
 }
 
 double volume_of(const Vector3<Dd>& u, const Vector3<Dd>& v, const Vector3<Dd>& w) {

@@ -58,6 +58,10 @@ inline Vector3<double> operator-(Point3 a, Point3 b) { return {a.x - b.x, a.y - 
 // A point whose coordinates are sums of two doubles, the first rounded: a copy in a periodic box.
 struct Place3 {
   Point3 high, low;
+
+  Dd x() const { return {high.x, low.x}; }
+  Dd y() const { return {high.y, low.y}; }
+  Dd z() const { return {high.z, low.z}; }
 };
 
 inline Vector3<double> operator-(const Place3& a, const Place3& b) {

@@ -25,7 +25,9 @@ struct Side {
   Dd x, y;
 };
 
-Side side(Point2 to, Point2 from) { return {two_diff(to.x, from.x), two_diff(to.y, from.y)}; }
+Side side(const Place2& to, const Place2& from) {
+  return {wide_difference(to.x(), from.x()), wide_difference(to.y(), from.y())};
+}
 Dd dot(const Side& a, const Side& b) { return a.x * b.x + a.y * b.y; }
 
 // Below this share of its greatest possible value, the area of a triangle is so small that
@@ -186,12 +188,12 @@ TriangleRecord Union2::triangle(std::size_t t) const {
       off_ij += (at_j * lean_ik + across * lean_jk) / sq_ij;
       off_ik += (at_k * lean_ij - across * lean_jk) / sq_ik;
     }
-    if (view_.weights != nullptr && !(size > kThin * std::sqrt(sq_ij * sq_ik))) {
+    if (balls_.weighted() && !(size > kThin * std::sqrt(sq_ij * sq_ik))) {
       const Side u = side(p[j], p[i]), v = side(p[k], p[i]), w = side(p[k], p[j]);
       const Dd at_k = dot(v, w), at_j = dot(u, w), at_i = dot(u, v);
-      const Dd ij = two_diff(weight(corner[i]), weight(corner[j]));
-      const Dd ik = two_diff(weight(corner[i]), weight(corner[k]));
-      const Dd jk = two_diff(weight(corner[j]), weight(corner[k]));
+      const Dd ij = two_diff(balls_.weight(corner[i]), balls_.weight(corner[j]));
+      const Dd ik = two_diff(balls_.weight(corner[i]), balls_.weight(corner[k]));
+      const Dd jk = two_diff(balls_.weight(corner[j]), balls_.weight(corner[k]));
       off_ij = (at_k * dot(u, u) - at_j * ik + at_i * jk).h / sq_ij;
       off_ik = (at_k * ij - at_j * dot(v, v) - at_i * jk).h / sq_ik;
     }
