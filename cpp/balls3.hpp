@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "predicates3.hpp"
-#include "union.hpp"
+#include "balls.hpp"
 
 namespace alphamesh {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "parallel.hpp"
-#include "union.hpp"
+#include "balls.hpp"
 
 namespace alphamesh {
 
