@@ -16,7 +16,7 @@ from alphamesh.voids import VoidShells
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray
+    from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray, KindArray
     from alphamesh.periodic._filtration import PeriodicFiltration
 
 __all__ = ["PeriodicRings", "PeriodicShells", "box_holes", "box_loops", "box_voids"]
@@ -204,7 +204,7 @@ class _Region:
         self._d = len(filtration.periods)
         self._faces = filtration.faces[self._d]
         self._rows = filtration.simplices[self._d]
-        self._offsets = filtration.offsets[self._d].astype(np.int64)
+        self._offsets = filtration.offsets[self._d]
         cells = hollow_cells(
             filtration.radii[-2], filtration.facet_cells, self._faces, creator, destroyer
         )
@@ -221,20 +221,17 @@ class _Region:
         """Return which side of a cell has the facet that is `side`."""
         return int(np.flatnonzero(self._faces[cell] == side)[0])
 
-    def _facet_at(self, cell: int, side: int) -> CountArray:
+    def _facet_at(self, cell: int, side: int) -> KindArray:
         """Return where a facet lies, from where it is listed, as a side of a cell."""
-        offset: CountArray = self._offsets[cell, 1 if side == 0 else 0]
+        offset: KindArray = self._offsets[cell, 1 if side == 0 else 0]
         return offset
 
     def _across(self, cell: int, side: int, place: CountArray) -> tuple[int, int, CountArray]:
         """Return the cell beyond a side, its side there, and where it lies."""
         other = self._beyond(cell, side)
         entry = self._entry(other, int(self._faces[cell, side]))
-        return (
-            other,
-            entry,
-            place + self._facet_at(cell, side) - self._facet_at(other, entry),
-        )
+        step = self._facet_at(cell, side) - self._facet_at(other, entry)
+        return other, entry, place + step
 
     def shell(self) -> list[tuple[int, CountArray]]:
         """Return the facets with one cell of the region, and where they lie."""
@@ -261,9 +258,7 @@ class _Region:
             for side in range(3)
             if self._beyond(cell, side) < 0
         }
-        rings = []
-        while left:
-            rings.append(self._ring(*min(left), left))
+        rings = [self._ring(*place, left) for place in sorted(left) if place in left]
         rings.sort(key=lambda ring: (not ring[2].any(), -self._area(ring)))
         return rings
 
