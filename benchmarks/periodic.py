@@ -52,6 +52,27 @@ def _boxes(size: int) -> Iterator[tuple[str, Any, Any]]:
     yield "plane", random.random((size, 2)) * 10, None
     yield "space", random.random((size, 3)) * 10, None
     yield "space, weights", random.random((size, 3)) * 10, random.random(size) * 1e-3
+    yield "diamond", _diamond(size // 100), None
+
+
+def _diamond(size: int) -> Any:
+    """Return about so many atoms of a diamond in a box of side 10.
+
+    Their coordinates are rounded, so that ties are there but for the last digit.
+    """
+    cells = max(1, round((size / 8) ** (1 / 3)))
+    base = [
+        [0, 0, 0],
+        [0, 2, 2],
+        [2, 0, 2],
+        [2, 2, 0],
+        [1, 1, 1],
+        [1, 3, 3],
+        [3, 1, 3],
+        [3, 3, 1],
+    ]
+    corners = np.indices((cells,) * 3).reshape(3, -1).T * 4
+    return (corners[:, None] + np.array(base)).reshape(-1, 3) * (10 / (4 * cells))
 
 
 def _table(name: str, points: Any, weights: Any, options: Any) -> dict[str, float]:

@@ -11,17 +11,9 @@ using Vector = Vector3<double>;
 
 }  // namespace
 
-Balls3::Balls3(const double* points, const double* weights, std::size_t n, double power)
-    : points_(points), weights_(weights), square_(n), radius_(n) {
-  for (std::size_t v = 0; v < n; ++v) {
-    square_[v] = std::max(0.0, weight(static_cast<Id>(v)) + power);
-    radius_[v] = std::sqrt(square_[v]);
-  }
-}
-
 Lens Balls3::lens(Id i, Id j) const {
   Lens out{};
-  out.length = norm(point(j) - point(i));
+  out.length = norm(place(j) - place(i));
   const double lean = (weight(i) - weight(j)) / out.length;
   out.from[0] = 0.5 * (out.length + lean);
   out.from[1] = 0.5 * (out.length - lean);
@@ -36,7 +28,7 @@ Lens Balls3::lens(Id i, Id j) const {
 // where two spheres hardly touch, errors of theirs cancel only if they are the same.
 Flap Balls3::flap(const Id* corner) const {
   Flap out{};
-  const Point3 p[3] = {point(corner[0]), point(corner[1]), point(corner[2])};
+  const Place3 p[3] = {place(corner[0]), place(corner[1]), place(corner[2])};
   Vector normal = cross(p[1] - p[0], p[2] - p[0]);
   for (int k = 0; k < 3; ++k) out.lens[k] = lens(corner[kEndsOf[k][0]], corner[kEndsOf[k][1]]);
   double size = norm(normal);
@@ -51,7 +43,7 @@ Flap Balls3::flap(const Id* corner) const {
     const Lens& side = out.lens[k];
     const Vector u = p[k] - p[a], v = p[k] - p[b], w = p[b] - p[a];
     double top = dot(u, v);
-    if (weights_ != nullptr) {
+    if (weighted()) {
       // Each share from its own end: the third corner may almost coincide with one of them.
       const double wk = weight(corner[k]), length_sq = dot(w, w);
       top += (-dot(v, w) * (weight(corner[a]) - wk) + dot(u, w) * (weight(corner[b]) - wk)) /
@@ -99,7 +91,7 @@ void Balls3::share_cell(const Id* corner, const Vector* normal, double det, doub
     size_sq[k] = dot(normal[k], normal[k]);
     if (size_sq[k] > size_sq[best]) best = k;
   }
-  const Point3 p[4] = {point(corner[0]), point(corner[1]), point(corner[2]), point(corner[3])};
+  const Place3 p[4] = {place(corner[0]), place(corner[1]), place(corner[2]), place(corner[3])};
   double reach[4][4];  // g[i][j]: from i, how far the radical plane is along j - i, times length
   for (int i = 0; i < 4; ++i) {
     for (int j = i + 1; j < 4; ++j) {
@@ -142,7 +134,7 @@ void Balls3::share_cell(const Id* corner, const Vector* normal, double det, doub
       const Vector ij = p[j] - p[i], ik = p[k] - p[i], jk = p[k] - p[j];
       // The distance of the face's centre from each edge, times the normal over the edge.
       double off_ij = 0.5 * dot(ik, jk), off_ik = -0.5 * dot(ij, jk);
-      if (weights_ != nullptr) {
+      if (weighted()) {
         const double wi = weight(corner[i]), wj = weight(corner[j]), wk = weight(corner[k]);
         const double at_i = dot(ij, ik), at_j = -dot(ij, jk), at_k = dot(ik, jk);
         off_ij += 0.5 * (at_j * (wi - wk) + at_i * (wj - wk)) / dot(ij, ij);

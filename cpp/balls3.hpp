@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "memory.hpp"
 #include "predicates3.hpp"
+#include "balls.hpp"
 
 namespace alphamesh {
 
@@ -23,17 +23,15 @@ struct Flap {
   double half[3], turn[3], share[3], height, area;
 };
 
-// Balls of squared radii weights + power, 0 where that is negative.
-class Balls3 {
+class Balls3 : public Balls {
  public:
-  // Weights may be null.
-  Balls3(const double* points, const double* weights, std::size_t n, double power);
+  using Balls::Balls;
 
-  double square(std::int32_t v) const { return square_[static_cast<std::size_t>(v)]; }
-  double radius(std::int32_t v) const { return radius_[static_cast<std::size_t>(v)]; }
-  Point3 point(std::int32_t v) const {
-    const double* p = points_ + 3 * static_cast<std::size_t>(v);
-    return {p[0], p[1], p[2]};
+  Place3 place(std::int32_t v) const {
+    const double* h = centres_.high + 3 * static_cast<std::size_t>(v);
+    if (centres_.low == nullptr) return {{h[0], h[1], h[2]}, {0.0, 0.0, 0.0}};
+    const double* l = centres_.low + 3 * static_cast<std::size_t>(v);
+    return {{h[0], h[1], h[2]}, {l[0], l[1], l[2]}};
   }
 
   Lens lens(std::int32_t i, std::int32_t j) const;
@@ -42,13 +40,6 @@ class Balls3 {
   // the volume. Adds to share[0] ... share[3].
   void share_cell(const std::int32_t* corner, const Vector3<double>* normal, double det,
                   double* share) const;
-
- private:
-  double weight(std::int32_t v) const { return weights_ != nullptr ? weights_[v] : 0.0; }
-
-  const double* points_;
-  const double* weights_;
-  Buffer<double> square_, radius_;
 };
 
 // The corners of a face of a tetrahedron, by the corner across; those of an edge of a triangle.

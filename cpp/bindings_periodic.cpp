@@ -12,6 +12,7 @@
 #include "site_mesh.hpp"
 #include "sites.hpp"
 #include "spatial_sort.hpp"
+#include "windings.hpp"
 
 namespace alphamesh {
 namespace {
@@ -158,6 +159,18 @@ nb::object periodic_check(const Ids& cells, const Offsets& offsets, const Ids& f
   return array(std::move(out));
 }
 
+// The part of each cell, -1 for none, and the rank of each part.
+nb::tuple periodic_parts(const Offsets& second, const Ids& faces, const Ids& facet_cells,
+                         const Flags& inside, const Flags& wall) {
+  const BoxCells cells{second.data(),  faces.data(),       faces.shape(0),
+                       faces.shape(1), facet_cells.data(), facet_cells.shape(0)};
+  Job job(1);
+  WoundParts out;
+  run_watched(job, cells.count, nb::none(),
+              [&] { out = wound_parts(cells, inside.data(), wall.data(), job); });
+  return nb::make_tuple(array(std::move(out.part)), array(std::move(out.rank)));
+}
+
 }  // namespace
 
 void bind_periodic(nb::module_& m) {
@@ -169,6 +182,8 @@ void bind_periodic(nb::module_& m) {
   m.def("periodic_check", &periodic_check, nb::arg("cells"), nb::arg("offsets"), nb::arg("faces"),
         nb::arg("facet_cells"), nb::arg("anchors"), nb::arg("shifts"), nb::arg("weights").none(),
         nb::arg("periods"), nb::arg("threads"));
+  m.def("periodic_parts", &periodic_parts, nb::arg("second"), nb::arg("faces"),
+        nb::arg("facet_cells"), nb::arg("inside"), nb::arg("wall"));
 }
 
 }  // namespace alphamesh

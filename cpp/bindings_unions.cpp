@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 
 #include <optional>
+#include <vector>
 
 #include "bindings.hpp"
 #include "union2.hpp"
@@ -10,88 +11,62 @@
 namespace alphamesh {
 namespace {
 
-using Points3 = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-using MaybeValues = std::optional<Values>;
-using Labels = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Rows = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-const double* data_or_null(const MaybeValues& values) {
-  return values.has_value() ? values->data() : nullptr;
+template <class Array>
+auto data_or_null(const std::optional<Array>& array) {
+  return array.has_value() ? array->data() : nullptr;
 }
 
-nb::tuple union2_py(const Ids& edges, const Ids& edge_triangles, const Ids& triangles,
-                    const Ids& triangle_edges, const nb::tuple& has, const Labels& hole,
-                    std::size_t hole_count, const Points2& points, const MaybeValues& weights,
-                    double power, int threads, const nb::object& progress) {
-  const auto vertex = nb::cast<Flags>(has[0]), edge = nb::cast<Flags>(has[1]),
-             triangle = nb::cast<Flags>(has[2]);
-  const DiscsView view{points.data(),
-                       data_or_null(weights),
-                       points.shape(0),
-                       power,
-                       vertex.data(),
-                       edges.data(),
-                       edge.data(),
-                       edge_triangles.data(),
-                       edges.shape(0),
-                       triangles.data(),
-                       triangle_edges.data(),
-                       triangle.data(),
-                       hole.data(),
-                       triangles.shape(0),
-                       hole_count};
-  Job job(useful_threads(threads, view.n));
-  UnionOfDiscs2 out;
-  run_watched(job, view.triangle_count, progress, [&] { out = union2(view, job); });
-  return nb::make_tuple(out.area, array(std::move(out.areas)), array(std::move(out.perimeters)),
-                        array(std::move(out.hole_areas)), array(std::move(out.hole_perimeters)));
+template <class Array>
+std::vector<Array> all(const nb::tuple& arrays) {
+  std::vector<Array> out;
+  for (const nb::handle array : arrays) out.push_back(nb::cast<Array>(array));
+  return out;
 }
 
-nb::tuple union3_py(const Ids& edges, const Ids& triangles, const Ids& triangle_edges,
-                    const Ids& triangle_tetrahedra, const Ids& tetrahedra,
-                    const Ids& tetrahedron_triangles, const nb::tuple& has, const Labels& hollow,
-                    std::size_t void_count, const Points3& points, const MaybeValues& weights,
-                    double power, int threads, const nb::object& progress) {
-  const auto vertex = nb::cast<Flags>(has[0]), edge = nb::cast<Flags>(has[1]),
-             triangle = nb::cast<Flags>(has[2]), tetrahedron = nb::cast<Flags>(has[3]);
-  const BallsView view{points.data(),
-                       data_or_null(weights),
-                       points.shape(0),
-                       power,
-                       vertex.data(),
-                       edges.data(),
-                       edge.data(),
-                       edges.shape(0),
-                       triangles.data(),
-                       triangle_edges.data(),
-                       triangle_tetrahedra.data(),
-                       triangle.data(),
-                       triangles.shape(0),
-                       tetrahedra.data(),
-                       tetrahedron_triangles.data(),
-                       tetrahedron.data(),
-                       hollow.data(),
-                       tetrahedra.shape(0),
-                       void_count};
-  Job job(useful_threads(threads, view.n));
-  UnionOfBalls3 out;
-  run_watched(job, view.tetrahedron_count, progress, [&] { out = union3(view, job); });
-  return nb::make_tuple(out.volume, array(std::move(out.volumes)),
-                        array(std::move(out.surface_areas)), array(std::move(out.void_volumes)),
-                        array(std::move(out.void_areas)));
+// `simplices` from edges on, `sides` from triangles on, `has` from vertices on.
+template <UnionMeasures (*kMeasure)(const UnionView&, Job&)>
+nb::tuple union_py(const Table& high, const std::optional<Table>& low,
+                   const std::optional<Values>& weights, const std::optional<Rows>& row,
+                   double power, const nb::tuple& simplices, const nb::tuple& sides,
+                   const nb::tuple& has, const Ids& cofaces, const Rows& hole, std::size_t holes,
+                   int threads, const nb::object& progress) {
+  const auto corners = all<Ids>(simplices), faces = all<Ids>(sides);
+  const auto there = all<Flags>(has);
+  UnionView view{};
+  Simplices* const layers[3] = {&view.edges, &view.triangles, &view.tetrahedra};
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    *layers[k] = {corners[k].data(), k > 0 ? faces[k - 1].data() : nullptr, there[k + 1].data(),
+                  corners[k].shape(0)};
+  }
+  view.has_vertex = there[0].data();
+  view.centres = {high.data(),       data_or_null(low), data_or_null(weights),
+                  data_or_null(row), there[0].shape(0), power};
+  view.cofaces = cofaces.data();
+  view.hole = hole.data();
+  view.holes = holes;
+  Job job(useful_threads(threads, view.centres.balls));
+  UnionMeasures out;
+  run_watched(job, hole.shape(0), progress, [&] { out = kMeasure(view, job); });
+  return nb::make_tuple(out.content, array(std::move(out.contents)), array(std::move(out.borders)),
+                        array(std::move(out.hole_contents)), array(std::move(out.hole_borders)));
+}
+
+template <class Function>
+void define(nb::module_& m, const char* name, Function function) {
+  m.def(name, function, nb::arg("high"), nb::arg("low").none(), nb::arg("weights").none(),
+        nb::arg("row").none(), nb::arg("power"), nb::arg("simplices"), nb::arg("sides"),
+        nb::arg("has"), nb::arg("cofaces"), nb::arg("hole"), nb::arg("holes"), nb::arg("threads"),
+        nb::arg("progress").none());
 }
 
 }  // namespace
 
 void bind_unions(nb::module_& m) {
-  m.def("union2", &union2_py, nb::arg("edges"), nb::arg("edge_triangles"), nb::arg("triangles"),
-        nb::arg("triangle_edges"), nb::arg("has"), nb::arg("hole"), nb::arg("hole_count"),
-        nb::arg("points"), nb::arg("weights").none(), nb::arg("power"), nb::arg("threads"),
-        nb::arg("progress").none());
-  m.def("union3", &union3_py, nb::arg("edges"), nb::arg("triangles"), nb::arg("triangle_edges"),
-        nb::arg("triangle_tetrahedra"), nb::arg("tetrahedra"), nb::arg("tetrahedron_triangles"),
-        nb::arg("has"), nb::arg("hollow"), nb::arg("void_count"), nb::arg("points"),
-        nb::arg("weights").none(), nb::arg("power"), nb::arg("threads"),
-        nb::arg("progress").none());
+  define(m, "union2", &union_py<union2>);
+  define(m, "union3", &union_py<union3>);
 }
 
 }  // namespace alphamesh

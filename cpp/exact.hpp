@@ -63,6 +63,12 @@ inline Dd operator*(Dd a, Dd b) {
   return fast_two_sum(p.h, p.l + (a.h * b.l + a.l * b.h));
 }
 
+// a - b, accurate where the larger parts cancel, too.
+inline Dd wide_difference(Dd a, Dd b) {
+  const Dd high = two_diff(a.h, b.h), low = two_diff(a.l, b.l);
+  return low.h == 0.0 ? high : high + low;
+}
+
 // A double-double whose parts are left as they come (Lange & Rump, Faithfully rounded
 // floating-point computations, 2020): half the operations for a few bits less. With M the
 // same formula of magnitudes, |l| <= k u M and the error is at most c u^2 M, where

@@ -75,12 +75,23 @@ int in_circle_perturbed(Point2 a, Point2 b, Point2 c, Point2 d, const Lattice& l
   return orient(a, b, d, lattice);
 }
 
-double cross_accurate(Point2 a, Point2 b, Point2 c) {
-  const Dd p = two_diff(b.x, a.x), q = two_diff(c.y, a.y);
-  const Dd r = two_diff(b.y, a.y), s = two_diff(c.x, a.x);
+namespace {
+
+double cross_of(Dd p, Dd q, Dd r, Dd s) {  // p q - r s
   const Dd l = p * q, m = r * s, det = l - m;
   if (std::fabs(det.h) > 0x1p-48 * (std::fabs(l.h) + std::fabs(m.h))) return det.h + det.l;
   return (expansion(p) * expansion(q) - expansion(r) * expansion(s)).estimate();
+}
+
+}  // namespace
+
+double cross_accurate(Point2 a, Point2 b, Point2 c) {
+  return cross_of(two_diff(b.x, a.x), two_diff(c.y, a.y), two_diff(b.y, a.y), two_diff(c.x, a.x));
+}
+
+double cross_accurate(const Place2& a, const Place2& b, const Place2& c) {
+  return cross_of(wide_difference(b.x(), a.x()), wide_difference(c.y(), a.y()),
+                  wide_difference(b.y(), a.y()), wide_difference(c.x(), a.x()));
 }
 
 }  // namespace alphamesh

@@ -7,11 +7,28 @@
 
 #include <cmath>
 
+#include "exact.hpp"
+
 namespace alphamesh {
 
 struct Point2 {
   double x, y;
 };
+
+inline Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
+
+// A point whose coordinates are sums of two doubles, the first rounded: a copy in a periodic box.
+struct Place2 {
+  Point2 high, low;
+
+  Dd x() const { return {high.x, low.x}; }
+  Dd y() const { return {high.y, low.y}; }
+};
+
+inline Point2 operator-(const Place2& a, const Place2& b) {
+  const Point2 high = a.high - b.high, low = a.low - b.low;
+  return {high.x + low.x, high.y + low.y};
+}
 
 inline bool operator==(Point2 a, Point2 b) { return a.x == b.x && a.y == b.y; }
 
@@ -53,6 +70,7 @@ int dot_exact(Point2 a, Point2 b, Point2 c, Lattice lattice);
 int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d, Lattice lattice);
 // (b - a) x (c - a), relative error below 2^-50.
 double cross_accurate(Point2 a, Point2 b, Point2 c);
+double cross_accurate(const Place2& a, const Place2& b, const Place2& c);
 
 inline int sign_of(double v) { return (v > 0.0) - (v < 0.0); }
 

@@ -62,28 +62,48 @@ bool in_sphere_perturbed(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e,
   return false;
 }
 
-double volume_accurate(Point3 a, Point3 b, Point3 c, Point3 d) {
-  const Vector3<Dd> u = difference(b, a), v = difference(c, a), w = difference(d, a);
+namespace {
+
+Vector3<Dd> difference(const Place3& a, const Place3& b) {
+  return {wide_difference(a.x(), b.x()), wide_difference(a.y(), b.y()),
+          wide_difference(a.z(), b.z())};
+}
+
+double volume_of(const Vector3<Dd>& u, const Vector3<Dd>& v, const Vector3<Dd>& w) {
   const Dd det = dot(cross(u, v), w);
   if (std::fabs(det.h) > 0x1p-46 * length(u) * length(v) * length(w)) return det.h + det.l;
   return dot(cross(big(u), big(v)), big(w)).estimate();
 }
-
-namespace {
 
 double component(Dd plain, double scale, const Big& x, const Big& y, const Big& z, const Big& w) {
   if (std::fabs(plain.h) > 0x1p-46 * scale) return plain.h + plain.l;
   return (x * y - z * w).estimate();
 }
 
-}  // namespace
-
-Vector3<double> normal_accurate(Point3 a, Point3 b, Point3 c) {
-  const Vector3<Dd> u = difference(b, a), v = difference(c, a), n = cross(u, v);
+Vector3<double> normal_of(const Vector3<Dd>& u, const Vector3<Dd>& v) {
+  const Vector3<Dd> n = cross(u, v);
   const double scale = length(u) * length(v);
   const Vector3<Big> s = big(u), t = big(v);
   return {component(n.x, scale, s.y, t.z, s.z, t.y), component(n.y, scale, s.z, t.x, s.x, t.z),
           component(n.z, scale, s.x, t.y, s.y, t.x)};
+}
+
+}  // namespace
+
+double volume_accurate(Point3 a, Point3 b, Point3 c, Point3 d) {
+  return volume_of(difference(b, a), difference(c, a), difference(d, a));
+}
+
+double volume_accurate(const Place3& a, const Place3& b, const Place3& c, const Place3& d) {
+  return volume_of(difference(b, a), difference(c, a), difference(d, a));
+}
+
+Vector3<double> normal_accurate(Point3 a, Point3 b, Point3 c) {
+  return normal_of(difference(b, a), difference(c, a));
+}
+
+Vector3<double> normal_accurate(const Place3& a, const Place3& b, const Place3& c) {
+  return normal_of(difference(b, a), difference(c, a));
 }
 
 Vector3<double> circumcentre_accurate(Point3 p, Point3 a, Point3 b, Point3 c, double* w) {

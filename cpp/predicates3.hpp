@@ -55,6 +55,20 @@ inline R dot(const Vector3<R>& a, const Vector3<R>& b) {
 
 inline Vector3<double> operator-(Point3 a, Point3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
+// A point whose coordinates are sums of two doubles, the first rounded: a copy in a periodic box.
+struct Place3 {
+  Point3 high, low;
+
+  Dd x() const { return {high.x, low.x}; }
+  Dd y() const { return {high.y, low.y}; }
+  Dd z() const { return {high.z, low.z}; }
+};
+
+inline Vector3<double> operator-(const Place3& a, const Place3& b) {
+  const Vector3<double> high = a.high - b.high, low = a.low - b.low;
+  return {high.x + low.x, high.y + low.y, high.z + low.z};
+}
+
 inline double norm(const Vector3<double>& a) { return std::sqrt(dot(a, a)); }
 
 int orient3_exact(Point3 a, Point3 b, Point3 c, Point3 d, const Lattice3& lattice);
@@ -103,9 +117,11 @@ inline bool in_sphere(Point3 a, Point3 b, Point3 c, Point3 d, Point3 e, const La
   return s != 0 ? s > 0 : in_sphere_perturbed(a, b, c, d, e, lattice);
 }
 
-// To a relative error of about 2^-50.
-double volume_accurate(Point3 a, Point3 b, Point3 c, Point3 d);  // 6 x signed volume
-Vector3<double> normal_accurate(Point3 a, Point3 b, Point3 c);   // (b - a) x (c - a)
+// To a relative error of about 2^-50: 6 x signed volume; (b - a) x (c - a).
+double volume_accurate(Point3 a, Point3 b, Point3 c, Point3 d);
+double volume_accurate(const Place3& a, const Place3& b, const Place3& c, const Place3& d);
+Vector3<double> normal_accurate(Point3 a, Point3 b, Point3 c);
+Vector3<double> normal_accurate(const Place3& a, const Place3& b, const Place3& c);
 // Circumcentre of a positive tetrahedron relative to a, times `w` (6 x volume) times 2.
 Vector3<double> circumcentre_accurate(Point3 a, Point3 b, Point3 c, Point3 d, double* w);
 

@@ -88,13 +88,7 @@ Dd Sites::difference(Id a, Id b, int axis) const {
   return upper + two_diff(coordinate(p, axis), coordinate(q, axis));
 }
 
-template <>
-Dd Sites::exact_difference<Dd>(Id a, Id b, int axis) const {
-  return difference(a, b, axis);
-}
-
-template <>
-Big Sites::exact_difference<Big>(Id a, Id b, int axis) const {
+Big Sites::exact_difference(Id a, Id b, int axis) const {
   const Point3 &p = low_[static_cast<std::size_t>(a)], &q = low_[static_cast<std::size_t>(b)];
   return Big(two_diff(coordinate(high(a), axis), coordinate(high(b), axis))) +
          Big(two_diff(coordinate(p, axis), coordinate(q, axis)));
@@ -135,7 +129,7 @@ int Sites::orient(const Id* v, const int* axes) const {
   if (std::fabs(better) + bound < power_of(unit_, D)) return 0;
   Big exact[D][3];
   for (int i = 0; i < D; ++i) {
-    for (int k = 0; k < D; ++k) exact[i][k] = exact_difference<Big>(v[i + 1], v[0], axes[k]);
+    for (int k = 0; k < D; ++k) exact[i][k] = exact_difference(v[i + 1], v[0], axes[k]);
   }
   return determinant<D, Big>(exact).sign();
 }
@@ -197,7 +191,7 @@ int Sites::conflict_carefully(const Id* v, Id q, const int* axes) const {
   Big arm[D + 1][3], exact[D + 1];
   for (int i = 0; i <= D; ++i) {
     Big d[3];
-    for (int k = 0; k < 3; ++k) d[k] = exact_difference<Big>(v[i], q, k);
+    for (int k = 0; k < 3; ++k) d[k] = exact_difference(v[i], q, k);
     for (int k = 0; k < D; ++k) arm[i][k] = d[axes[k]];
     exact[i] = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + Big(two_diff(weight(q), weight(v[i])));
   }

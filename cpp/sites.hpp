@@ -15,6 +15,8 @@
 
 namespace alphamesh {
 
+class Big;
+
 class Sites {
  public:
   using Id = std::int32_t;
@@ -30,6 +32,7 @@ class Sites {
 
   // Rounded to double-double: its sign is exact.
   Dd difference(Id a, Id b, int axis) const;
+  Big exact_difference(Id a, Id b, int axis) const;
   bool less(Id a, Id b) const;  // lexicographic
 
   // Signs for simplices of dimension D = 1, 2 or 3 along D of the axes.
@@ -43,8 +46,6 @@ class Sites {
   bool conflict(const Id* v, Id q, const int* axes) const;
 
  private:
-  template <class R>
-  R exact_difference(Id a, Id b, int axis) const;
   template <int D>
   int conflict_carefully(const Id* v, Id q, const int* axes) const;
   template <int D>

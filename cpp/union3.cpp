@@ -60,11 +60,10 @@ struct CellRecord {
 
 class Union3 {
  public:
-  Union3(const BallsView& view, Job& job);
-  UnionOfBalls3 run();
+  Union3(const UnionView& view, Job& job);
+  UnionMeasures run();
 
  private:
-  int open_sides(std::size_t f) const;
   void note_voids(std::size_t f, const Flap& flap, FlapRecord& out) const;
   void count();
   void add_triangles();
@@ -75,10 +74,11 @@ class Union3 {
   void measure_void(std::size_t t, CellRecord& out) const;
   void finish_voids();
   Id cell_edge(std::size_t t, int k) const;
+  bool has_vertex(Id v) const { return view_.has_vertex[balls_.row(v)]; }
 
-  const BallsView& view_;
+  const UnionView& view_;
   Job& job_;
-  UnionOfBalls3 out_;
+  UnionMeasures out_;
   CarefulSum total_;
   Balls3 balls_;
   Buffer<Id> euler_;            // Euler characteristic of each sphere's part of the boundary
@@ -88,68 +88,52 @@ class Union3 {
   static constexpr std::uint8_t kSpanned = 1, kOpen = 2;
 };
 
-Union3::Union3(const BallsView& view, Job& job)
+Union3::Union3(const UnionView& view, Job& job)
     : view_(view),
       job_(job),
-      balls_(view.points, view.weights, view.n, view.power),
-      euler_(view.n),
-      state_(view.edge_count),
-      turn_(view.edge_count),
-      edge_hollow_(view.void_count > 0 ? view.edge_count : 0) {
-  out_.volumes = Buffer<double>(view.n);
-  out_.surface_areas = Buffer<double>(view.n);
-  out_.void_volumes = Buffer<double>(view.void_count);
-  out_.void_areas = Buffer<double>(view.void_count);
-  std::fill(out_.volumes.begin(), out_.volumes.end(), 0.0);
-  std::fill(out_.surface_areas.begin(), out_.surface_areas.end(), 0.0);
-  std::fill(out_.void_volumes.begin(), out_.void_volumes.end(), 0.0);
-  std::fill(out_.void_areas.begin(), out_.void_areas.end(), 0.0);
+      out_(view.centres.balls, view.holes),
+      balls_(view.centres),
+      euler_(view.centres.balls),
+      state_(view.edges.count),
+      turn_(view.edges.count),
+      edge_hollow_(view.holes > 0 ? view.edges.count : 0) {
   std::fill(euler_.begin(), euler_.end(), 2);
   std::fill(state_.begin(), state_.end(), std::uint8_t{0});
   std::fill(turn_.begin(), turn_.end(), 2.0 * kPi);
   std::fill(edge_hollow_.begin(), edge_hollow_.end(), -1);
 }
 
-// Sides of a triangle without a tetrahedron of the complex.
-int Union3::open_sides(std::size_t f) const {
-  int open = 2;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Id t = view_.triangle_tetrahedra[2 * f + k];
-    if (t >= 0 && view_.has_tetrahedron[t]) --open;
-  }
-  return open;
-}
-
 // The boundary on a sphere is what the link of its vertex leaves of it.
 void Union3::count() {
-  for (std::size_t e = 0; e < view_.edge_count; ++e) {
-    if (!view_.has_edge[e]) continue;
-    for (std::size_t k = 0; k < 2; ++k) --euler_[at(view_.edges[2 * e + k])];
+  for (std::size_t e = 0; e < view_.edges.count; ++e) {
+    if (!view_.edges.has[e]) continue;
+    for (std::size_t k = 0; k < 2; ++k) --euler_[balls_.row(view_.edges.corner[2 * e + k])];
   }
   job_.poll();
-  for (std::size_t f = 0; f < view_.triangle_count; ++f) {
-    if (!view_.has_triangle[f]) continue;
-    const std::uint8_t state = open_sides(f) > 0 ? kSpanned | kOpen : kSpanned;
+  for (std::size_t f = 0; f < view_.triangles.count; ++f) {
+    if (!view_.triangles.has[f]) continue;
+    const std::uint8_t state =
+        view_.open_sides(f, view_.tetrahedra) > 0 ? kSpanned | kOpen : kSpanned;
     for (std::size_t k = 0; k < 3; ++k) {
-      ++euler_[at(view_.triangles[3 * f + k])];
-      state_[at(view_.triangle_edges[3 * f + k])] |= state;
+      ++euler_[balls_.row(view_.triangles.corner[3 * f + k])];
+      state_[at(view_.triangles.side[3 * f + k])] |= state;
     }
   }
   job_.poll();
-  for (std::size_t t = 0; t < view_.tetrahedron_count; ++t) {
-    if (!view_.has_tetrahedron[t]) continue;
-    for (std::size_t k = 0; k < 4; ++k) --euler_[at(view_.tetrahedra[4 * t + k])];
+  for (std::size_t t = 0; t < view_.tetrahedra.count; ++t) {
+    if (!view_.tetrahedra.has[t]) continue;
+    for (std::size_t k = 0; k < 4; ++k) --euler_[balls_.row(view_.tetrahedra.corner[4 * t + k])];
   }
-  for (std::size_t e = 0; e < view_.edge_count; ++e) {
-    if (view_.has_edge[e] && state_[e] == 0) state_[e] = kOpen;
+  for (std::size_t e = 0; e < view_.edges.count; ++e) {
+    if (view_.edges.has[e] && state_[e] == 0) state_[e] = kOpen;
   }
 }
 
 // What a flap takes from the voids on either side of its triangle.
 void Union3::note_voids(std::size_t f, const Flap& flap, FlapRecord& out) const {
   for (std::size_t k = 0; k < 2; ++k) {
-    const Id t = view_.triangle_tetrahedra[2 * f + k];
-    out.hollow[k] = t < 0 || view_.has_tetrahedron[t] ? -1 : view_.hollow[t];
+    const Id t = view_.cofaces[2 * f + k];
+    out.hollow[k] = t < 0 || view_.tetrahedra.has[t] ? -1 : view_.hole[t];
   }
   if (out.hollow[0] < 0 && out.hollow[1] < 0) return;
   out.hole.volume = -flap.area * flap.height / 3.0;
@@ -161,16 +145,16 @@ void Union3::note_voids(std::size_t f, const Flap& flap, FlapRecord& out) const 
 
 void Union3::add_triangles() {
   in_waves<FlapRecord>(
-      view_.triangle_count, job_, 0.4,
+      view_.triangles.count, job_, 0.4,
       [&](std::size_t f, std::vector<FlapRecord>& records) {
-        if (!view_.has_triangle[f]) return;
-        const int open = open_sides(f);
+        if (!view_.triangles.has[f]) return;
+        const int open = view_.open_sides(f, view_.tetrahedra);
         if (open == 0) return;
-        const Flap flap = balls_.flap(view_.triangles + 3 * f);
+        const Flap flap = balls_.flap(view_.triangles.corner + 3 * f);
         FlapRecord record{};
         for (std::size_t k = 0; k < 3; ++k) {
-          record.v[k] = view_.triangles[3 * f + k];
-          record.e[k] = view_.triangle_edges[3 * f + k];
+          record.v[k] = view_.triangles.corner[3 * f + k];
+          record.e[k] = view_.triangles.side[3 * f + k];
           record.half[k] = open * flap.half[k];
           record.turn[k] = open * flap.turn[k];
           record.share[k] = open * flap.share[k] * flap.height / 3.0;
@@ -181,16 +165,16 @@ void Union3::add_triangles() {
       },
       [&](const FlapRecord& record) {
         for (int k = 0; k < 3; ++k) {
-          const std::size_t v = at(record.v[k]);
+          const std::size_t v = balls_.row(record.v[k]);
           turn_[at(record.e[k])] -= record.half[k];
-          out_.surface_areas[v] -= balls_.radius(record.v[k]) * record.turn[k];
-          out_.volumes[v] += record.share[k];
+          out_.borders[v] -= balls_.radius(record.v[k]) * record.turn[k];
+          out_.contents[v] += record.share[k];
         }
         total_ += record.volume;
         for (const Id hollow : record.hollow) {
           if (hollow < 0) continue;
-          out_.void_areas[at(hollow)] += record.hole.area;
-          out_.void_volumes[at(hollow)] += record.hole.volume;
+          out_.hole_borders[at(hollow)] += record.hole.area;
+          out_.hole_contents[at(hollow)] += record.hole.volume;
         }
       });
 }
@@ -200,29 +184,29 @@ Id Union3::cell_edge(std::size_t t, int k) const {
   const int a = kEdge[k][0], b = kEdge[k][1];
   // In a face with both, the edge is opposite to the third corner.
   const int away = a > 0 ? 0 : (b > 1 ? 1 : 2), third = 6 - a - b - away;
-  const std::size_t f = at(view_.tetrahedron_triangles[4 * t + at(away)]);
-  return view_.triangle_edges[3 * f + at(third > away ? third - 1 : third)];
+  const std::size_t f = at(view_.tetrahedra.side[4 * t + at(away)]);
+  return view_.triangles.side[3 * f + at(third > away ? third - 1 : third)];
 }
 
 // What a tetrahedron outside of the complex adds to its void, but for the flaps on its faces.
 void Union3::measure_void(std::size_t t, CellRecord& out) const {
-  const Id* corner = view_.tetrahedra + 4 * t;
+  const Id* corner = view_.tetrahedra.corner + 4 * t;
   out.hole.volume = out.volume;
   for (int k = 0; k < 4; ++k) {
-    if (!view_.has_vertex[corner[k]]) continue;
+    if (!has_vertex(corner[k])) continue;
     out.hole.sphere(balls_.square(corner[k]), balls_.radius(corner[k]), 2.0 * kPi);
   }
   for (int k = 0; k < 6; ++k) {
     const Id i = corner[kEdge[k][0]], j = corner[kEdge[k][1]];
-    if (view_.has_edge[out.e[k]]) out.hole.edge(balls_, balls_.lens(i, j), i, j, out.angle[k]);
+    if (view_.edges.has[out.e[k]]) out.hole.edge(balls_, balls_.lens(i, j), i, j, out.angle[k]);
   }
 }
 
 CellRecord Union3::cell(std::size_t t) const {
-  const Id* corner = view_.tetrahedra + 4 * t;
+  const Id* corner = view_.tetrahedra.corner + 4 * t;
   CellRecord out{};
-  const Point3 p[4] = {balls_.point(corner[0]), balls_.point(corner[1]), balls_.point(corner[2]),
-                       balls_.point(corner[3])};
+  const Place3 p[4] = {balls_.place(corner[0]), balls_.place(corner[1]), balls_.place(corner[2]),
+                       balls_.place(corner[3])};
   Vector normal[4];
   const Vector u = p[1] - p[0], v = p[2] - p[0], w = p[3] - p[0];
   const double sizes = norm(u) * norm(v) * norm(w);
@@ -230,19 +214,25 @@ CellRecord Union3::cell(std::size_t t) const {
   const bool thin = !(std::fabs(det) > kThin * sizes);
   if (thin) det = volume_accurate(p[0], p[1], p[2], p[3]);
   for (int k = 0; k < 4; ++k) {  // inward
-    const Point3 a = p[kFaceOf[k][0]], b = p[kFaceOf[k][1]], c = p[kFaceOf[k][2]];
-    normal[k] = thin ? normal_accurate(a, b, c) : cross(b - a, c - a);
+    const Place3 &a = p[kFaceOf[k][0]], &b = p[kFaceOf[k][1]], &c = p[kFaceOf[k][2]];
+    const Vector along = b - a, across = c - a;
+    normal[k] = cross(along, across);
+    // Two far corners may almost coincide.
+    if (thin ||
+        !(dot(normal[k], normal[k]) > kThin * kThin * dot(along, along) * dot(across, across))) {
+      normal[k] = normal_accurate(a, b, c);
+    }
     if ((k % 2 == 0) == (det > 0.0)) normal[k] = {-normal[k].x, -normal[k].y, -normal[k].z};
   }
   const double size = std::fabs(det);
-  const bool inside = view_.has_tetrahedron[t];
-  out.hollow = inside ? -1 : view_.hollow[t];
+  const bool inside = view_.tetrahedra.has[t];
+  out.hollow = inside ? -1 : view_.hole[t];
   out.volume = size / 6.0;
   for (int k = 0; k < 4; ++k) out.v[k] = corner[k];
   for (int k = 0; k < 6; ++k) {
     const int a = kEdge[k][0], b = kEdge[k][1];
     out.e[k] = cell_edge(t, k);
-    if (inside ? state_[at(out.e[k])] == kSpanned : !view_.has_edge[out.e[k]]) {
+    if (inside ? state_[at(out.e[k])] == kSpanned : !view_.edges.has[out.e[k]]) {
       if (inside) out.e[k] = -1;
       continue;
     }
@@ -261,18 +251,18 @@ CellRecord Union3::cell(std::size_t t) const {
 
 void Union3::add_tetrahedra() {
   in_waves<CellRecord>(
-      view_.tetrahedron_count, job_, 0.5,
+      view_.tetrahedra.count, job_, 0.5,
       [&](std::size_t t, std::vector<CellRecord>& records) {
-        if (view_.has_tetrahedron[t] || view_.hollow[t] >= 0) records.push_back(cell(t));
+        if (view_.tetrahedra.has[t] || view_.hole[t] >= 0) records.push_back(cell(t));
       },
       [&](const CellRecord& record) {
         if (record.hollow >= 0) {
-          out_.void_volumes[at(record.hollow)] += record.hole.volume;
-          out_.void_areas[at(record.hollow)] += record.hole.area;
+          out_.hole_contents[at(record.hollow)] += record.hole.volume;
+          out_.hole_borders[at(record.hollow)] += record.hole.area;
           for (const Id e : record.e) edge_hollow_[at(e)] = record.hollow;
           return;
         }
-        for (int k = 0; k < 4; ++k) out_.volumes[at(record.v[k])] += record.share[k];
+        for (int k = 0; k < 4; ++k) out_.contents[balls_.row(record.v[k])] += record.share[k];
         for (int k = 0; k < 6; ++k) {
           if (record.e[k] >= 0) turn_[at(record.e[k])] -= record.angle[k];
         }
@@ -281,35 +271,36 @@ void Union3::add_tetrahedra() {
 }
 
 void Union3::add_edges() {
-  for (std::size_t e = 0; e < view_.edge_count; ++e) {
+  for (std::size_t e = 0; e < view_.edges.count; ++e) {
     if ((e & 0xffff) == 0) job_.poll();
-    if (!view_.has_edge[e] || state_[e] == kSpanned) continue;
-    const Id* end = view_.edges + 2 * e;
+    if (!view_.edges.has[e] || state_[e] == kSpanned) continue;
+    const Id* end = view_.edges.corner + 2 * e;
     const Lens lens = balls_.lens(end[0], end[1]);
     const double turn = std::max(0.0, std::min(2.0 * kPi, turn_[e]));
     const double disc = lens.circle * lens.circle * turn / 6.0;
     for (std::size_t k = 0; k < 2; ++k) {
-      out_.volumes[at(end[k])] += lens.from[k] * disc;
-      out_.surface_areas[at(end[k])] += lens.from[k] * turn;
+      out_.contents[balls_.row(end[k])] += lens.from[k] * disc;
+      out_.borders[balls_.row(end[k])] += lens.from[k] * turn;
     }
     total_ += lens.length * disc;
   }
 }
 
 void Union3::add_vertices() {
-  Buffer<bool> open(view_.n);
+  Buffer<bool> open(view_.centres.balls);
   std::fill(open.begin(), open.end(), false);
-  Buffer<bool> joined(view_.n);
+  Buffer<bool> joined(view_.centres.balls);
   std::fill(joined.begin(), joined.end(), false);
-  for (std::size_t e = 0; e < view_.edge_count; ++e) {
-    if (!view_.has_edge[e]) continue;
+  for (std::size_t e = 0; e < view_.edges.count; ++e) {
+    if (!view_.edges.has[e]) continue;
     for (std::size_t k = 0; k < 2; ++k) {
-      joined[at(view_.edges[2 * e + k])] = true;
-      if (state_[e] != kSpanned) open[at(view_.edges[2 * e + k])] = true;
+      const std::size_t v = balls_.row(view_.edges.corner[2 * e + k]);
+      joined[v] = true;
+      if (state_[e] != kSpanned) open[v] = true;
     }
   }
-  for (std::size_t v = 0; v < view_.n; ++v) {
-    double& area = out_.surface_areas[v];
+  for (std::size_t v = 0; v < view_.centres.balls; ++v) {
+    double& area = out_.borders[v];
     const double radius = balls_.radius(static_cast<Id>(v));
     if (!view_.has_vertex[v] || (joined[v] && !open[v])) {
       area = 0.0;
@@ -318,7 +309,7 @@ void Union3::add_vertices() {
       area = std::min(area, 4.0 * kPi * radius * radius);
     }
     const double cone = radius * area / 3.0;
-    out_.volumes[v] = std::max(0.0, out_.volumes[v] + cone);
+    out_.contents[v] = std::max(0.0, out_.contents[v] + cone);
     total_ += cone;
   }
 }
@@ -327,38 +318,37 @@ void Union3::add_vertices() {
 // triangles and edges of the void around its vertex tell.
 void Union3::finish_voids() {
   auto add = [&](Id hollow, Id v, double sign) {
-    if (!view_.has_vertex[v]) return;
+    if (!has_vertex(v)) return;
     const double area = sign * 2.0 * kPi * balls_.square(v);
-    out_.void_areas[at(hollow)] += area;
-    out_.void_volumes[at(hollow)] -= balls_.radius(v) * area / 3.0;
+    out_.hole_borders[at(hollow)] += area;
+    out_.hole_contents[at(hollow)] -= balls_.radius(v) * area / 3.0;
   };
-  for (std::size_t f = 0; f < view_.triangle_count; ++f) {
-    const Id t = view_.triangle_tetrahedra[2 * f];
-    if (view_.has_triangle[f] || t < 0 || view_.hollow[t] < 0) continue;
-    for (std::size_t k = 0; k < 3; ++k) add(view_.hollow[t], view_.triangles[3 * f + k], -1.0);
+  for (std::size_t f = 0; f < view_.triangles.count; ++f) {
+    const Id t = view_.cofaces[2 * f];
+    if (view_.triangles.has[f] || t < 0 || view_.hole[t] < 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) add(view_.hole[t], view_.triangles.corner[3 * f + k], -1.0);
   }
-  for (std::size_t e = 0; e < view_.edge_count; ++e) {
-    if (view_.has_edge[e] || edge_hollow_[e] < 0) continue;
-    for (std::size_t k = 0; k < 2; ++k) add(edge_hollow_[e], view_.edges[2 * e + k], 1.0);
+  for (std::size_t e = 0; e < view_.edges.count; ++e) {
+    if (view_.edges.has[e] || edge_hollow_[e] < 0) continue;
+    for (std::size_t k = 0; k < 2; ++k) add(edge_hollow_[e], view_.edges.corner[2 * e + k], 1.0);
   }
-  for (double& volume : out_.void_volumes) volume = std::max(0.0, volume);
-  for (double& area : out_.void_areas) area = std::max(0.0, area);
+  out_.trim_holes();
 }
 
-UnionOfBalls3 Union3::run() {
+UnionMeasures Union3::run() {
   count();
   job_.advance(0.05);
   add_triangles();
   add_tetrahedra();
   add_edges();
   add_vertices();
-  if (view_.void_count > 0) finish_voids();
-  out_.volume = total_.value();
+  if (view_.holes > 0) finish_voids();
+  out_.content = total_.value();
   return std::move(out_);
 }
 
 }  // namespace
 
-UnionOfBalls3 union3(const BallsView& view, Job& job) { return Union3(view, job).run(); }
+UnionMeasures union3(const UnionView& view, Job& job) { return Union3(view, job).run(); }
 
 }  // namespace alphamesh

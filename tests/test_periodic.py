@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 import pickle
 from fractions import Fraction
@@ -205,6 +206,23 @@ def test_progress_never_goes_back(monkeypatch):
     assert told[-1] == 1
     with pytest.raises(ParameterError):
         am.AlphaComplex(points[:5], periods=(1, 1), progress=5)
+
+
+@pytest.mark.parametrize("step", [0.1, 1 / 3])
+def test_crystals_need_no_wide_margin(monkeypatch, step):
+    """Slivers as thin as the last digit have spheres that are no larger than others."""
+    stage = importlib.import_module("alphamesh.periodic._making")
+    margins = []
+
+    def counted(high, *rest):
+        margins.append(len(high))
+        return star(high, *rest)
+
+    star = stage.periodic_star
+    monkeypatch.setattr(stage, "periodic_star", counted)
+    made = am.AlphaComplex(grid((8, 8, 8), step), periods=(8 * step,) * 3)
+    assert len(made.simplices[0]) == 512
+    assert margins == [pytest.approx(15**3, rel=0.1)]  # and not 27 boxes
 
 
 def test_narrow_and_wide_margins_give_the_same(monkeypatch):

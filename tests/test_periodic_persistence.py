@@ -87,11 +87,8 @@ def test_what_is_no_simplicial_complex_is_no_tree():
     assert tree.betti_numbers() == [1, 2, 1]
 
 
-def test_cycles_that_may_run_around_the_box_are_not_traced():
+def test_bad_questions():
     found = am.AlphaComplex([[0.1, 0.2]], periods=(1, 1)).persistence()
-    for method in (found.holes, found.loops, found.voids):
-        with pytest.raises(PeriodicError, match="around"):
-            method([0])
     with pytest.raises(ParameterError, match="0, 1, 2"):
         found.diagram(3)
     with pytest.raises(ParameterError, match="periodic"):

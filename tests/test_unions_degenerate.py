@@ -41,6 +41,14 @@ def test_almost_lattices_and_almost_duplicates_in_fifty_digits(noise):
         check_against_oracle(points, radius, rel=1e-10)
 
 
+@pytest.mark.parametrize("seed", [220, 324])
+def test_faces_of_two_corners_that_almost_coincide(seed):
+    """Seen from the third, far away, they lie in one direction to all digits but the last."""
+    rng = np.random.default_rng(seed)
+    points = rng.integers(0, 2, (6, 3)) * 0.1 + 1e-16 * rng.integers(-3, 4, (6, 3)) + 0.1
+    check_against_oracle(points, 0.08)
+
+
 @pytest.mark.parametrize("radius", [0.5, math.sqrt(0.5), math.sqrt(0.75), 0.9, 1.0, 40.0])
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_lattices_are_continuous_in_the_radius(dimension, radius):

@@ -39,7 +39,13 @@ if TYPE_CHECKING:
     from alphamesh.io.points import read_points, read_table
     from alphamesh.molecule import Molecule
     from alphamesh.outline import Rings
-    from alphamesh.periodic import PeriodicFiltration, PeriodicPersistence, PeriodicShape
+    from alphamesh.periodic import (
+        PeriodicFiltration,
+        PeriodicPersistence,
+        PeriodicShape,
+        PeriodicUnionOfBalls,
+        PeriodicUnionOfDiscs,
+    )
     from alphamesh.periodic_complex import PeriodicComplex
     from alphamesh.persistence import Persistence, persistence
     from alphamesh.planar import Selection
@@ -104,6 +110,8 @@ __all__ = [
     "PeriodicFiltration",
     "PeriodicPersistence",
     "PeriodicShape",
+    "PeriodicUnionOfBalls",
+    "PeriodicUnionOfDiscs",
     "Persistence",
     "PointTable",
     "RadiusChoice",
@@ -177,7 +185,13 @@ _HOMES = {
     "io.points": ("read_points", "read_table"),
     "molecule": ("Molecule",),
     "outline": ("Rings",),
-    "periodic": ("PeriodicFiltration", "PeriodicPersistence", "PeriodicShape"),
+    "periodic": (
+        "PeriodicFiltration",
+        "PeriodicPersistence",
+        "PeriodicShape",
+        "PeriodicUnionOfBalls",
+        "PeriodicUnionOfDiscs",
+    ),
     "periodic_complex": ("PeriodicComplex",),
     "persistence": ("Persistence", "persistence"),
     "planar": ("Selection",),

@@ -1,21 +1,41 @@
-"""Balls at a radius: which of their simplices there are, and sizes that kernels can take."""
+"""Balls at a radius: which of their simplices there are, and what they measure together."""
 
 from __future__ import annotations
 
 import math
 from numbers import Real
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from alphamesh._arrays import read_only
+from alphamesh._kernels.unions import Centres, measured_union
 from alphamesh.errors import ParameterError
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import BoolArray, FloatArray
-    from alphamesh.filtration import AnyFiltration
+    from typing import TypeAlias
 
-__all__ = ["ball_radii", "finite_radius", "present", "rescaled", "scaled", "unscaled"]
+    from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray
+    from alphamesh._kernels import Progress
+    from alphamesh._kernels.unions import Pieces
+    from alphamesh.filtration import AnyFiltration
+    from alphamesh.periodic import PeriodicFiltration
+
+    Balls: TypeAlias = AnyFiltration | PeriodicFiltration
+
+__all__ = [
+    "Measured",
+    "ball_radii",
+    "chosen_holes",
+    "finite_radius",
+    "largest_first",
+    "measured",
+    "present",
+    "rescaled",
+    "scaled",
+    "scaled_squares",
+    "unscaled",
+]
 
 # Coordinates that the kernels take as they are, and to which size they bring others. So
 # neither a product of four lengths nor one of two areas leaves the range of float64.
@@ -28,7 +48,7 @@ _LARGEST_RADIUS = 2.0**250
 _CLOSE = 2e-12
 
 
-def finite_radius(radius: object, filtration: AnyFiltration) -> float:
+def finite_radius(radius: object, filtration: Balls) -> float:
     """Return `radius` as a float, or say what is wrong with it."""
     if isinstance(radius, Real) and math.isfinite(value := float(radius)):
         if value >= 0 or filtration.weights is not None:
@@ -50,15 +70,15 @@ def ball_radii(weights: FloatArray | None, radius: float, count: int) -> FloatAr
     return read_only(np.ldexp(np.sqrt(np.maximum(squares, 0.0)), exponent))
 
 
-def present(filtration: AnyFiltration, radius: float) -> tuple[BoolArray, ...]:
+def present(filtration: Balls, radius: float) -> tuple[BoolArray, ...]:
     """Return which rows and which simplices of each higher dimension there are at `radius`."""
-    vertex = np.zeros(len(filtration.points), dtype=np.bool_)
-    vertex[filtration.simplices[0][:, 0]] = filtration.radii[0] <= radius
     last = _settled(filtration, radius)
+    vertex = np.zeros(len(filtration.points), dtype=np.bool_)
+    vertex[filtration.simplices[0][:, 0]] = filtration.radii[0] <= last
     return vertex, *(radii <= last for radii in filtration.radii[1:])
 
 
-def _settled(filtration: AnyFiltration, radius: float) -> float:
+def _settled(filtration: Balls, radius: float) -> float:
     """Return the value from `radius` on after which none follows too closely.
 
     Values carry rounding errors. Of two that hardly differ, the larger may truly be the
@@ -90,10 +110,8 @@ def _power(radius: float) -> float:
     return math.copysign(radius * radius, radius)
 
 
-def scaled(
-    filtration: AnyFiltration, radius: float, *, alone: bool
-) -> tuple[FloatArray, FloatArray | None, float, int]:
-    """Return points, weights and squared radius over powers of two, and the exponent.
+def scaled(filtration: AnyFiltration, radius: float, *, alone: bool) -> tuple[Centres, int]:
+    """Return balls whose lengths are divided by a power of two, and its exponent.
 
     Where all balls are `alone`, only their own size counts, and no point is looked at.
     """
@@ -102,7 +120,7 @@ def scaled(
     sizes = np.abs(points)
     largest = float(sizes.max(initial=0.0))
     least = float(sizes.min(initial=np.inf, where=sizes > 0))
-    span = max(abs(radius), 0.0 if weights is None else _root(np.abs(weights).max(initial=0.0)))
+    span = _largest_radius(weights, radius)
     exponent = 0
     if alone:
         exponent = math.frexp(span)[1]
@@ -110,16 +128,36 @@ def scaled(
         exponent = int(np.frexp(largest)[1]) - _SCALED_TO[dimension]
     elif span >= _LARGEST_RADIUS:
         exponent = int(np.frexp(span)[1]) - 250
+    if exponent and not alone:
+        points = np.ldexp(points, -exponent)
+    return Centres(points, *scaled_squares(weights, radius, exponent)), exponent
+
+
+def _largest_radius(weights: FloatArray | None, radius: float) -> float:
+    """Return what no ball is larger than, but for a factor below two."""
+    heaviest = 0.0 if weights is None else float(np.abs(weights).max(initial=0.0))
+    return max(abs(radius), _root(heaviest))
+
+
+def scaled_squares(
+    weights: FloatArray | None, radius: float, exponent: int
+) -> tuple[FloatArray | None, float]:
+    """Return weights and the signed square of the radius over ``4**exponent``.
+
+    Raises
+    ------
+    ParameterError
+        If they are too large for that.
+    """
+    span = _largest_radius(weights, radius)
     if math.frexp(span)[1] - exponent > 250:
         raise ParameterError(
             f"a radius of {span:.6g} is too large beside coordinates as small as these; "
             "scale the points up"
         )
-    if exponent:
-        points = points if alone else np.ldexp(points, -exponent)
-        if weights is not None:
-            weights = np.ldexp(weights, -2 * exponent)
-    return points, weights, _power(math.ldexp(radius, -exponent)), exponent
+    if weights is not None and exponent:
+        weights = np.ldexp(weights, -2 * exponent)
+    return weights, _power(math.ldexp(radius, -exponent))
 
 
 def rescaled(array: FloatArray, exponent: int) -> FloatArray:
@@ -134,3 +172,53 @@ def unscaled(value: float, exponent: int) -> float:
     """Return `value` times a power of two, 0 or infinite where that leaves the range."""
     with np.errstate(over="ignore", under="ignore"):
         return float(np.ldexp(value, exponent))
+
+
+class Measured(NamedTuple):
+    """The measures of a union, and of the parts of its complement, `labels` of cells."""
+
+    content: float
+    contents: FloatArray
+    borders: FloatArray
+    labels: IntArray
+    hole_contents: FloatArray
+    hole_borders: FloatArray
+
+
+def measured(
+    centres: Centres,
+    pieces: Pieces,
+    exponent: int,
+    threads: int | None,
+    progress: Progress | None,
+) -> Measured:
+    """Return the measures of balls whose lengths are divided by ``2**exponent``."""
+    content, contents, borders, hole_contents, hole_borders = measured_union(
+        centres, pieces, threads, progress
+    )
+    d = centres.high.shape[1]
+    return Measured(
+        unscaled(content, d * exponent),
+        rescaled(contents, d * exponent),
+        rescaled(borders, (d - 1) * exponent),
+        pieces.holes,
+        rescaled(hole_contents, d * exponent),
+        rescaled(hole_borders, (d - 1) * exponent),
+    )
+
+
+def largest_first(sizes: FloatArray, wanted: BoolArray | None = None) -> CountArray:
+    """Return numbers of holes, of the `wanted` ones or of all, those of the largest first."""
+    order = np.argsort(-sizes, kind="stable")
+    return order if wanted is None else order.compress(wanted.take(order))
+
+
+def chosen_holes(found: Measured, order: CountArray) -> Measured:
+    """Return the measures with some of the holes alone, in another order."""
+    places = np.full(len(found.hole_contents) + 1, -1, dtype=np.int32)
+    places[order] = np.arange(len(order), dtype=np.int32)  # the last one, of -1, stays
+    return found._replace(
+        labels=read_only(places.take(found.labels)),
+        hole_contents=read_only(found.hole_contents.take(order)),
+        hole_borders=read_only(found.hole_borders.take(order)),
+    )

@@ -139,27 +139,12 @@ class AlphaComplex(Exports, Shown):
         return self._filtration.points
 
     @property
-    def crs(self) -> Any:
-        """The coordinate reference system that came with the points, or None."""
-        return self._filtration.crs
-
-    @property
-    def weights(self) -> FloatArray | None:
-        """Squared radii of the balls, ``(n,)`` float64; None for balls of equal size."""
-        return self._filtration.weights
-
-    @property
     def representative(self) -> IntArray:
         """The lowest row with the coordinates of each row, ``(n,)`` int32.
 
         With weights, the lowest of the heaviest with these coordinates.
         """
         return self._filtration.representative
-
-    @property
-    def hidden(self) -> IntArray:
-        """Rows that heavier points leave no part of the power diagram, ``(h,)`` int32."""
-        return self._filtration.hidden
 
     @property
     def dimension(self) -> int:
@@ -311,12 +296,6 @@ class AlphaComplex(Exports, Shown):
             f"<AlphaComplex: {vertices} vertices, {edges} edges, {triangles} triangles"
             f"{hidden_text(self.hidden)}>"
         )
-
-    def __copy__(self) -> AlphaComplex:
-        return self
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> AlphaComplex:
-        return self
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         return _from_filtration, (type(self), self._filtration)

@@ -12,6 +12,7 @@ from alphamesh.errors import MissingLibraryError
 if TYPE_CHECKING:
     import os
     from collections.abc import Sequence
+    from typing import Self
 
     from alphamesh._arrays import FloatArray, IntArray
 
@@ -139,11 +140,31 @@ def write_arrays(arrays: dict[str, Array], path: str | os.PathLike[str]) -> None
 
 
 class Exports:
-    """What a complex can hand to other libraries: base of those that users hold."""
+    """What complexes that users hold have in common, whatever their filtration.
+
+    Nothing in them can change: a copy is the object itself.
+    """
 
     __slots__ = ()
 
     _filtration: Any
+
+    @property
+    def crs(self) -> Any:
+        """The coordinate reference system that came with the points, or None."""
+        return self._filtration.crs
+
+    @property
+    def weights(self) -> FloatArray | None:
+        """Squared radii of the balls, ``(n,)`` float64; None for balls of equal size."""
+        weights: FloatArray | None = self._filtration.weights
+        return weights
+
+    @property
+    def hidden(self) -> IntArray:
+        """Rows that heavier points leave no part of the power diagram, ``(h,)`` int32."""
+        hidden: IntArray = self._filtration.hidden
+        return hidden
 
     def to_gudhi(self, *, squared: bool = False) -> Any:
         """Return the complex as a ``gudhi.SimplexTree``, its values radii or their squares.
@@ -165,3 +186,9 @@ class Exports:
         Parameters and errors are those of :func:`alphamesh.export.write_npz`.
         """
         write_npz(self._filtration, path)
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return self

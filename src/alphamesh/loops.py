@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
     from alphamesh._arrays import BoolArray, CountArray, FloatArray, IntArray
     from alphamesh.filtration import AnyFiltration
 
-__all__ = ["shortest_loops"]
+__all__ = ["Roads", "shortest_loops"]
 
 
 def shortest_loops(filtration: AnyFiltration, loops: IntArray, classes: ArrayLike) -> Rings:
@@ -44,82 +46,124 @@ def shortest_loops(filtration: AnyFiltration, loops: IntArray, classes: ArrayLik
     creators = loops[:, 0].take(wanted)
     if len(creators) == 0:
         return rings_of([], [])
-    roads = _Roads.until(filtration, float(filtration.radii[1].take(creators).max()))
-    rings = [roads.way_around(edge) for edge in creators.tolist()]
+    roads = _roads_of(filtration, float(filtration.radii[1].take(creators).max()))
+    rings = [
+        [start, *roads.ends.take(roads.way_around(edge)).tolist()]
+        for edge, start in zip(
+            creators.tolist(), filtration.simplices[1][creators, 0].tolist(), strict=True
+        )
+    ]
     return rings_of(rings, wanted.tolist())
 
 
-@dataclass(frozen=True, slots=True)
-class _Roads:
-    """The edges up to a radius as roads from each point, flat: both directions of each.
+def _roads_of(filtration: AnyFiltration, radius: float) -> Roads:
+    points, _ = scaled_points(filtration.points)  # no length overflows
+    there = np.flatnonzero(filtration.radii[1] <= radius)
+    lengths = edge_lengths(points, filtration.simplices[1].take(there, axis=0))
+    return Roads.along(
+        filtration.simplices[1],
+        filtration.radii[1],
+        there,
+        lengths,
+        partial(_distances, points),
+    )
 
-    Roads from point i are those from ``offsets[i]`` to ``offsets[i + 1]``.
+
+@dataclass(frozen=True, slots=True)
+class Roads:
+    """Edges as roads from each point, flat: both directions of each.
+
+    Roads from point i are those from ``offsets[i]`` to ``offsets[i + 1]``. Points may be
+    joined by several edges, or to themselves.
+
+    Attributes
+    ----------
+    edges : (E, 2) int32
+    radii : (E,) float64
+        When they join.
+    straight : callable
+        The least distance of all points from one.
+    offsets : (n + 1,) int64
+    starts, ends : (m,) int32
+    numbers : (m,) int64
+        Of edges.
+    lengths : (m,) float64
     """
 
-    filtration: AnyFiltration
-    points: FloatArray  # over a power of two: no length overflows
+    edges: IntArray
+    radii: FloatArray
+    straight: Callable[[int], FloatArray]
     offsets: CountArray
+    starts: IntArray
     ends: IntArray
-    edges: CountArray
+    numbers: CountArray
     lengths: FloatArray
 
     @classmethod
-    def until(cls, filtration: AnyFiltration, radius: float) -> _Roads:
-        points, _ = scaled_points(filtration.points)
-        there = np.flatnonzero(filtration.radii[1] <= radius)
-        ends = filtration.simplices[1].take(there, axis=0)
+    def along(
+        cls,
+        edges: IntArray,
+        radii: FloatArray,
+        there: CountArray,
+        lengths: FloatArray,
+        straight: Callable[[int], FloatArray],
+    ) -> Roads:
+        """Return roads along the edges that are `there`, of the given lengths."""
+        ends = edges.take(there, axis=0)
         starts = np.concatenate((ends[:, 0], ends[:, 1]))
         order = np.argsort(starts, kind="stable")
-        counts = np.bincount(starts, minlength=len(points))
+        counts = np.bincount(starts, minlength=len(straight(0)))
         return cls(
-            filtration,
-            points,
+            edges,
+            radii,
+            straight,
             np.concatenate(([0], np.cumsum(counts, dtype=np.int64))),
+            starts.take(order),
             np.concatenate((ends[:, 1], ends[:, 0])).take(order),
             np.concatenate((there, there)).take(order),
-            np.tile(edge_lengths(points, ends), 2).take(order),
+            np.tile(lengths, 2).take(order),
         )
 
     def way_around(self, creator: int) -> list[int]:
-        """Return the shortest way between the ends of an edge along edges before it."""
-        start, goal = self.filtration.simplices[1][creator].tolist()
+        """Return the shortest way between the ends of an edge along edges before it: roads."""
+        start, goal = self.edges[creator].tolist()
         open_ = self._before(creator)
-        straight = _distances(self.points, goal)
-        distance = np.full(len(self.points), np.inf)
-        came_from = np.full(len(self.points), -1, dtype=np.int32)
+        straight = self.straight(goal)
+        distance = np.full(len(straight), np.inf)
+        came_by = np.full(len(straight), -1, dtype=np.int64)
         distance[start] = 0.0
         frontier = np.array([start])
         # All points that a round reached nearer than before go on in the next one.
         while len(frontier):
-            sources, roads = self._roads_from(frontier)
+            roads = self._roads_from(frontier)
             ends = self.ends.take(roads)
-            length = distance.take(sources) + self.lengths.take(roads)
+            length = distance.take(self.starts.take(roads)) + self.lengths.take(roads)
             nearer = open_.take(roads) & (length < distance.take(ends))
             nearer &= length + straight.take(ends) <= distance[goal]
             ends, length = ends.compress(nearer), length.compress(nearer)
             np.minimum.at(distance, ends, length)
             best = length == distance.take(ends)
-            came_from[ends.compress(best)] = sources.compress(nearer).compress(best)
+            came_by[ends.compress(best)] = roads.compress(nearer).compress(best)
             frontier = np.unique(ends)
-        path = [goal]
-        while path[-1] != start:
-            path.append(int(came_from[path[-1]]))
+        path: list[int] = []
+        while goal != start:
+            path.append(int(came_by[goal]))
+            goal = int(self.starts[path[-1]])
         return path[::-1]
 
     def _before(self, creator: int) -> BoolArray:
         """Return which roads run along edges that joined before one of them."""
-        radii = self.filtration.radii[1]
-        values, birth = radii.take(self.edges), radii[creator]
+        values, birth = self.radii.take(self.numbers), self.radii[creator]
         # Edges of equal value join in their order.
-        before: BoolArray = (values < birth) | ((values == birth) & (self.edges < creator))
+        before: BoolArray = (values < birth) | ((values == birth) & (self.numbers < creator))
         return before
 
-    def _roads_from(self, points: CountArray) -> tuple[CountArray, CountArray]:
-        """Return the roads that leave points, and from which one each does."""
+    def _roads_from(self, points: CountArray) -> CountArray:
+        """Return the roads that leave points."""
         first = self.offsets.take(points)
         counts = self.offsets.take(points + 1) - first
         skipped = np.repeat(first - np.cumsum(counts) + counts, counts)
-        return np.repeat(points, counts), skipped + np.arange(len(skipped))
+        return skipped + np.arange(len(skipped))
 
 
 def _distances(points: FloatArray, row: int) -> FloatArray:

@@ -14,6 +14,7 @@ from alphamesh.periodic import (
     choose_periodic_radius,
     periodic_filtration,
     periodic_persistence,
+    periodic_union,
     tiled_points,
 )
 from alphamesh.shown import Shown
@@ -26,7 +27,12 @@ if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
     from alphamesh.film import Film
-    from alphamesh.periodic import PeriodicFiltration, PeriodicPersistence
+    from alphamesh.periodic import (
+        PeriodicFiltration,
+        PeriodicPersistence,
+        PeriodicUnionOfBalls,
+        PeriodicUnionOfDiscs,
+    )
     from alphamesh.plot import Drawing
     from alphamesh.radius import RadiusChoice
 
@@ -77,21 +83,6 @@ class PeriodicComplex(Exports, Shown):
     def periods(self) -> tuple[float | None, ...]:
         """The side lengths of the box, None where it is open."""
         return self._filtration.periods
-
-    @property
-    def crs(self) -> Any:
-        """The coordinate reference system that came with the points, or None."""
-        return self._filtration.crs
-
-    @property
-    def weights(self) -> FloatArray | None:
-        """Squared radii of the balls, ``(n,)`` float64; None for balls of equal size."""
-        return self._filtration.weights
-
-    @property
-    def hidden(self) -> IntArray:
-        """Rows that heavier points leave no part of the power diagram, ``(h,)`` int32."""
-        return self._filtration.hidden
 
     @property
     def representative(self) -> IntArray:
@@ -192,6 +183,24 @@ class PeriodicComplex(Exports, Shown):
             radius = self.choose_radius().radius
         return PeriodicShape(self._filtration, radius)
 
+    def union(
+        self, radius: float | None = None, **options: Any
+    ) -> PeriodicUnionOfDiscs | PeriodicUnionOfBalls:
+        """Measure the union of the balls of `radius` and of all their copies, per box.
+
+        Parameters
+        ----------
+        radius : float, optional
+            Finite, in the units of the points; by default the one that
+            :meth:`choose_radius` chooses.
+        **options
+            ``threads`` and ``progress``: see :func:`alphamesh.union_of_balls`, also for
+            the errors.
+        """
+        if radius is None:
+            radius = self.choose_radius().radius
+        return periodic_union(self._filtration, radius, **options)
+
     def critical_radii(self) -> FloatArray:
         """Return every radius at which the complex changes, ascending, without repeats.
 
@@ -276,12 +285,6 @@ class PeriodicComplex(Exports, Shown):
 
     def __repr__(self) -> str:
         return repr(self._filtration).replace("PeriodicFiltration", "PeriodicComplex")
-
-    def __copy__(self) -> PeriodicComplex:
-        return self
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> PeriodicComplex:
-        return self
 
     def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
         return PeriodicComplex, (self._filtration,)

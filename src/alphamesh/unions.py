@@ -9,15 +9,24 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from alphamesh._arrays import Record, read_only
-from alphamesh._balls import ball_radii, finite_radius, present, rescaled, scaled, unscaled
+from alphamesh._balls import (
+    ball_radii,
+    chosen_holes,
+    finite_radius,
+    largest_first,
+    measured,
+    present,
+    scaled,
+)
 from alphamesh._kernels.space import parts3
-from alphamesh._kernels.unions import union2, union3
+from alphamesh._kernels.unions import Pieces
 from alphamesh.errors import ParameterError
 from alphamesh.filtration import Filtration
 from alphamesh.filtration3d import Filtration3D
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import BoolArray, FloatArray, IntArray
+    from alphamesh._arrays import FloatArray, IntArray
+    from alphamesh._balls import Measured
     from alphamesh._kernels import Progress
     from alphamesh.filtration import AnyFiltration
 
@@ -314,81 +323,33 @@ def union_of_balls(
 def _of_discs(
     filtration: Filtration, radius: float, threads: int | None, progress: Progress | None
 ) -> UnionOfDiscs:
-    vertex, edge, triangle = present(filtration, radius)
-    points, weights, power, exponent = scaled(filtration, radius, alone=not edge.any())
-    labels, count = _enclosed(filtration.edge_triangles, triangle, edge)
-    area, areas, perimeters, hole_areas, hole_perimeters = union2(
-        points,
-        weights,
-        power,
-        filtration.simplices[1],
-        filtration.edge_triangles,
-        filtration.simplices[2],
-        filtration.triangle_edges,
-        (vertex, edge, triangle),
-        labels,
-        count,
-        threads,
-        progress,
-    )
-    labels, (hole_areas, hole_perimeters) = _by_size(labels, hole_areas, hole_perimeters)
-    return UnionOfDiscs(
-        filtration,
-        radius,
-        unscaled(area, 2 * exponent),
-        rescaled(areas, 2 * exponent),
-        rescaled(perimeters, exponent),
-        UnionHoles(
-            labels, rescaled(hole_areas, 2 * exponent), rescaled(hole_perimeters, exponent)
-        ),
-    )
+    found = _measured(filtration, radius, threads, progress)
+    holes = UnionHoles(found.labels, found.hole_contents, found.hole_borders)
+    return UnionOfDiscs(filtration, radius, found.content, found.contents, found.borders, holes)
 
 
 def _of_balls(
     filtration: Filtration3D, radius: float, threads: int | None, progress: Progress | None
 ) -> UnionOfBalls:
-    vertex, edge, triangle, tetrahedron = present(filtration, radius)
-    points, weights, power, exponent = scaled(filtration, radius, alone=not edge.any())
-    labels, count = _enclosed(filtration.triangle_tetrahedra, tetrahedron, triangle)
-    volume, volumes, areas, void_volumes, void_areas = union3(
-        points,
-        weights,
-        power,
-        filtration.simplices[1:],
-        filtration.triangle_edges,
-        filtration.triangle_tetrahedra,
-        filtration.tetrahedron_triangles,
-        (vertex, edge, triangle, tetrahedron),
-        labels,
-        count,
-        threads,
-        progress,
-    )
-    labels, (void_volumes, void_areas) = _by_size(labels, void_volumes, void_areas)
-    return UnionOfBalls(
-        filtration,
-        radius,
-        unscaled(volume, 3 * exponent),
-        rescaled(volumes, 3 * exponent),
-        rescaled(areas, 2 * exponent),
-        UnionVoids(
-            labels, rescaled(void_volumes, 3 * exponent), rescaled(void_areas, 2 * exponent)
-        ),
-    )
+    found = _measured(filtration, radius, threads, progress)
+    voids = UnionVoids(found.labels, found.hole_contents, found.hole_borders)
+    return UnionOfBalls(filtration, radius, found.content, found.contents, found.borders, voids)
 
 
-def _enclosed(cofaces: IntArray, cells: BoolArray, facets: BoolArray) -> tuple[IntArray, int]:
-    """Return the number of the hole that each cell lies in, -1 for none, and how many."""
-    found = parts3(cofaces, cells, facets)
-    labels = np.maximum(-2 - found, -1).astype(np.int32)
-    return labels, int(labels.max(initial=-1)) + 1
-
-
-def _by_size(
-    labels: IntArray, sizes: FloatArray, others: FloatArray
-) -> tuple[IntArray, tuple[FloatArray, FloatArray]]:
-    """Return the labels and measures of holes, the largest of which is now the first."""
-    order = np.argsort(-sizes, kind="stable")
-    places = np.full(len(order) + 1, -1, dtype=np.int32)  # the last one, of -1, stays
-    places[order] = np.arange(len(order), dtype=np.int32)
-    return read_only(places.take(labels)), (sizes.take(order), others.take(order))
+def _measured(
+    filtration: AnyFiltration, radius: float, threads: int | None, progress: Progress | None
+) -> Measured:
+    has = present(filtration, radius)
+    centres, exponent = scaled(filtration, radius, alone=not has[1].any())
+    sides: tuple[IntArray, ...] = (filtration.triangle_edges,)
+    if isinstance(filtration, Filtration3D):
+        cofaces = filtration.triangle_tetrahedra
+        sides += (filtration.tetrahedron_triangles,)
+    else:
+        cofaces = filtration.edge_triangles
+    # Enclosed parts are -2, -3, ...
+    labels = np.maximum(-2 - parts3(cofaces, has[-1], has[-2]), -1).astype(np.int32)
+    count = int(labels.max(initial=-1)) + 1
+    pieces = Pieces(filtration.simplices[1:], sides, cofaces, has, labels, count)
+    found = measured(centres, pieces, exponent, threads, progress)
+    return chosen_holes(found, largest_first(found.hole_contents))

@@ -66,29 +66,41 @@ std::vector<double> values_of(const Buffer<double>& a, const Buffer<double>& b) 
   return out;
 }
 
+alphamesh::Centres centres_of(const Cloud& cloud, double radius) {
+  const double* weights = cloud.weights.empty() ? nullptr : cloud.weights.data();
+  return {cloud.coordinates.data(), nullptr, weights, nullptr, cloud.n, power_of(radius)};
+}
+
+Measured measured(const alphamesh::UnionMeasures& found) {
+  return {found.content, list(found.contents), list(found.borders), list(found.hole_contents)};
+}
+
 Measured union_of_discs(const Filtered& x, double radius, Job& job) {
   const Cloud& cloud = x.cloud;
   const alphamesh::Filtration2& f = *x.plane;
   const std::size_t edges = f.edge_radii.size(), triangles = f.triangle_radii.size();
   const double* weights = cloud.weights.empty() ? nullptr : cloud.weights.data();
-  const alphamesh::ComplexView2 complex{cloud.coordinates.data(), cloud.n,
-                                        f.triangles.data(),       triangles,
-                                        f.edges.data(),           edges,
-                                        f.edge_triangles.data(),  weights};
+  const alphamesh::ComplexView2 complex{
+      cloud.coordinates.data(), cloud.n, f.triangles.data(),      triangles,
+      f.edges.data(),           edges,   f.edge_triangles.data(), weights};
   const Buffer<Id> triangle_edges = alphamesh::triangle_edges2(complex, job);
   const double last = settled(cloud, values_of(f.edge_radii, f.triangle_radii), radius);
-  const auto vertex = within(x.births.data(), cloud.n, radius);
+  const auto vertex = within(x.births.data(), cloud.n, last);
   const auto edge = within(f.edge_radii.data(), edges, last);
   const auto triangle = within(f.triangle_radii.data(), triangles, last);
   auto hole =
       alphamesh::parts(triangles, f.edge_triangles.data(), edges, triangle.get(), edge.get(), job);
   const std::size_t holes = enclosed(hole);
-  const auto found = alphamesh::union2(
-      {cloud.coordinates.data(), weights, cloud.n, power_of(radius), vertex.get(), f.edges.data(),
-       edge.get(), f.edge_triangles.data(), edges, f.triangles.data(), triangle_edges.data(),
-       triangle.get(), hole.data(), triangles, holes},
-      job);
-  return {found.area, list(found.areas), list(found.perimeters), list(found.hole_areas)};
+  return measured(
+      alphamesh::union2({centres_of(cloud, radius),
+                         vertex.get(),
+                         {f.edges.data(), nullptr, edge.get(), edges},
+                         {f.triangles.data(), triangle_edges.data(), triangle.get(), triangles},
+                         {},
+                         f.edge_triangles.data(),
+                         hole.data(),
+                         holes},
+                        job));
 }
 
 Measured union_of_balls(const Filtered& x, double radius, Job& job) {
@@ -105,21 +117,23 @@ Measured union_of_balls(const Filtered& x, double radius, Job& job) {
   const std::vector<double> more = list(f.tetrahedron_radii);
   values.insert(values.end(), more.begin(), more.end());
   const double last = settled(cloud, values, radius);
-  const auto vertex = within(x.births.data(), cloud.n, radius);
+  const auto vertex = within(x.births.data(), cloud.n, last);
   const auto edge = within(f.edge_radii.data(), edges, last);
   const auto triangle = within(f.triangle_radii.data(), triangles, last);
   const auto tetrahedron = within(f.tetrahedron_radii.data(), tetrahedra, last);
   auto hollow = alphamesh::parts(tetrahedra, f.triangle_tetrahedra.data(), triangles,
                                  tetrahedron.get(), triangle.get(), job);
   const std::size_t voids = enclosed(hollow);
-  const auto found = alphamesh::union3(
-      {cloud.coordinates.data(), cloud.weights.empty() ? nullptr : cloud.weights.data(), cloud.n,
-       power_of(radius), vertex.get(), f.edges.data(), edge.get(), edges, f.triangles.data(),
-       triangle_edges.data(), f.triangle_tetrahedra.data(), triangle.get(), triangles,
-       f.tetrahedra.data(), tetrahedron_triangles.data(), tetrahedron.get(), hollow.data(),
-       tetrahedra, voids},
-      job);
-  return {found.volume, list(found.volumes), list(found.surface_areas), list(found.void_volumes)};
+  return measured(alphamesh::union3(
+      {centres_of(cloud, radius),
+       vertex.get(),
+       {f.edges.data(), nullptr, edge.get(), edges},
+       {f.triangles.data(), triangle_edges.data(), triangle.get(), triangles},
+       {f.tetrahedra.data(), tetrahedron_triangles.data(), tetrahedron.get(), tetrahedra},
+       f.triangle_tetrahedra.data(),
+       hollow.data(),
+       voids},
+      job));
 }
 
 // The area of a union of discs from the arcs that bound it (Green), each circle against all

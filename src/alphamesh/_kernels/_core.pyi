@@ -130,6 +130,13 @@ def periodic_check(
     periods: NDArray[np.float64],
     threads: int,
 ) -> NDArray[np.int8]: ...
+def periodic_parts(
+    second: NDArray[np.int8],
+    faces: NDArray[np.int32],
+    facet_cells: NDArray[np.int32],
+    inside: NDArray[np.bool_],
+    wall: NDArray[np.bool_],
+) -> tuple[NDArray[np.int32], NDArray[np.int8]]: ...
 def component_count(n: int, pairs: NDArray[np.int32]) -> int: ...
 def triangle_edges2(
     points: NDArray[np.float64],
@@ -294,16 +301,17 @@ def nearest3(
 ) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64]]: ...
 def trim_memory() -> None: ...
 def union2(
-    edges: NDArray[np.int32],
-    edge_triangles: NDArray[np.int32],
-    triangles: NDArray[np.int32],
-    triangle_edges: NDArray[np.int32],
-    has: tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]],
-    hole: NDArray[np.int32],
-    hole_count: int,
-    points: NDArray[np.float64],
+    high: NDArray[np.float64],
+    low: NDArray[np.float64] | None,
     weights: NDArray[np.float64] | None,
+    row: NDArray[np.int32] | None,
     power: float,
+    simplices: tuple[NDArray[np.int32], ...],
+    sides: tuple[NDArray[np.int32], ...],
+    has: tuple[NDArray[np.bool_], ...],
+    cofaces: NDArray[np.int32],
+    hole: NDArray[np.int32],
+    holes: int,
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> tuple[
@@ -314,18 +322,17 @@ def union2(
     NDArray[np.float64],
 ]: ...
 def union3(
-    edges: NDArray[np.int32],
-    triangles: NDArray[np.int32],
-    triangle_edges: NDArray[np.int32],
-    triangle_tetrahedra: NDArray[np.int32],
-    tetrahedra: NDArray[np.int32],
-    tetrahedron_triangles: NDArray[np.int32],
-    has: tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]],
-    hollow: NDArray[np.int32],
-    void_count: int,
-    points: NDArray[np.float64],
+    high: NDArray[np.float64],
+    low: NDArray[np.float64] | None,
     weights: NDArray[np.float64] | None,
+    row: NDArray[np.int32] | None,
     power: float,
+    simplices: tuple[NDArray[np.int32], ...],
+    sides: tuple[NDArray[np.int32], ...],
+    has: tuple[NDArray[np.bool_], ...],
+    cofaces: NDArray[np.int32],
+    hole: NDArray[np.int32],
+    holes: int,
     threads: int,
     progress: Callable[[float], object] | None,
 ) -> tuple[

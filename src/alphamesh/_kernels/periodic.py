@@ -11,10 +11,17 @@ from alphamesh._kernels import _check_progress, _core, resolve_threads
 from alphamesh.errors import CloudTooLargeError
 
 if TYPE_CHECKING:
-    from alphamesh._arrays import FloatArray, IntArray, KindArray
+    from alphamesh._arrays import BoolArray, FloatArray, IntArray, KindArray
     from alphamesh._kernels import Progress
 
-__all__ = ["Layer", "Star", "periodic_check", "periodic_complex", "periodic_star"]
+__all__ = [
+    "Layer",
+    "Star",
+    "periodic_check",
+    "periodic_complex",
+    "periodic_parts",
+    "periodic_star",
+]
 
 
 class Star(NamedTuple):
@@ -202,3 +209,37 @@ def periodic_check(  # noqa: PLR0913, PLR0917 (the arrays of a complex)
             resolve_threads(threads),
         )
     )
+
+
+def periodic_parts(
+    offsets: KindArray,
+    faces: IntArray,
+    facet_cells: IntArray,
+    inside: BoolArray,
+    wall: BoolArray,
+) -> tuple[IntArray, KindArray]:
+    """Return the connected parts of some cells of a box, and how each runs on.
+
+    Parameters
+    ----------
+    offsets : (k, D + 1, d) int8
+    faces : (k, D + 1) int32
+    facet_cells : (m, 2) int32
+    inside : (k,) bool
+        Cells that belong to no part.
+    wall : (m,) bool
+        Facets that connect nothing.
+
+    Returns
+    -------
+    parts : (k,) int32
+        Numbers of parts, in the order of their first cells; -1 inside, and where a part
+        reaches an open border.
+    ranks : (p,) int8
+        In how many independent directions each part goes on without end; 0 if it is
+        bounded.
+    """
+    second = np.zeros((len(offsets), 3), dtype=np.int8)
+    second[:, : offsets.shape[2]] = offsets[:, 1]
+    parts, ranks = _core.periodic_parts(second, faces, facet_cells, inside, wall)
+    return read_only(parts), read_only(ranks)

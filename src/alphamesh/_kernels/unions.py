@@ -6,7 +6,7 @@ They suppose coordinates, radii and weights in the range that
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from alphamesh._arrays import read_only
 from alphamesh._kernels import _check_progress, _core, resolve_threads
@@ -19,128 +19,99 @@ if TYPE_CHECKING:
 
     Measures: TypeAlias = tuple[float, FloatArray, FloatArray, FloatArray, FloatArray]
 
-__all__ = ["union2", "union3"]
+__all__ = ["Centres", "Pieces", "measured_union"]
 
 
-def union2(  # noqa: PLR0913, PLR0917 (the arrays of a complex)
-    points: FloatArray,
-    weights: FloatArray | None,
-    power: float,
-    edges: IntArray,
-    edge_triangles: IntArray,
-    triangles: IntArray,
-    triangle_edges: IntArray,
-    has: tuple[BoolArray, BoolArray, BoolArray],
-    hole: IntArray,
-    hole_count: int,
-    threads: int | None = None,
-    progress: Progress | None = None,
-) -> Measures:
-    """Return the measures of the union of discs of squared radii ``weights + power``.
+class Centres(NamedTuple):
+    """Balls of squared radii ``weights + power``: where they are, and their copies.
 
-    Parameters
+    Attributes
     ----------
-    points : (n, 2) float64, C-contiguous
+    high : (p, d) float64, C-contiguous
+        The centres of the n balls, then those of copies.
     weights : (n,) float64 or None
         None means 0.
     power : float
-    edges, edge_triangles : (E, 2) int32
-    triangles, triangle_edges : (T, 3) int32
-    has : tuple of (n,), (E,), (T,) bool
-        Which points, edges and triangles the alpha complex at `power` has.
-    hole : (T,) int32
-        The hole of the complex that each triangle lies in, below zero for none.
+    low : (p, d) float64, C-contiguous, or None
+        What is to be added to `high`.
+    rows : (p,) int32 or None
+        The ball that each place belongs to; None if there are no copies.
+    """
+
+    high: FloatArray
+    weights: FloatArray | None
+    power: float
+    low: FloatArray | None = None
+    rows: IntArray | None = None
+
+
+class Pieces(NamedTuple):
+    """The simplices that cut a union into pieces, and which of them are there.
+
+    Attributes
+    ----------
+    simplices : tuple of (m_k, k + 1) int32
+        Edges, triangles and, in space, tetrahedra: numbers of places.
+    sides : tuple of (m_k, k + 1) int32
+        The face opposite to each vertex, of triangles and, in space, of tetrahedra.
+    cofaces : (f, 2) int32
+        The cells of each facet, -1 for none.
+    has : tuple of bool arrays
+        Which balls, and which simplices of each dimension, the alpha complex at the radius
+        has.
+    holes : (c,) int32
+        The hole of the complex that each cell lies in, below zero for none.
     hole_count : int
-    threads : int, optional
-    progress : callable, optional
-
-    Returns
-    -------
-    area : float
-    areas, perimeters : (n,) float64
-        Of each disc in its power cell; of its arcs on the boundary.
-    hole_areas, hole_perimeters : (hole_count,) float64
     """
-    threads = resolve_threads(threads)
-    _check_progress(progress)
-    area, *arrays = _core.union2(
-        edges,
-        edge_triangles,
-        triangles,
-        triangle_edges,
-        has,
-        hole,
-        hole_count,
-        points,
-        weights,
-        power,
-        threads,
-        progress,
-    )
-    areas, perimeters, hole_areas, hole_perimeters = map(read_only, arrays)
-    return area, areas, perimeters, hole_areas, hole_perimeters
+
+    simplices: tuple[IntArray, ...]
+    sides: tuple[IntArray, ...]
+    cofaces: IntArray
+    has: tuple[BoolArray, ...]
+    holes: IntArray
+    hole_count: int
 
 
-def union3(  # noqa: PLR0913, PLR0917 (the arrays of a complex)
-    points: FloatArray,
-    weights: FloatArray | None,
-    power: float,
-    simplices: tuple[IntArray, IntArray, IntArray],
-    triangle_edges: IntArray,
-    triangle_tetrahedra: IntArray,
-    tetrahedron_triangles: IntArray,
-    has: tuple[BoolArray, BoolArray, BoolArray, BoolArray],
-    hollow: IntArray,
-    void_count: int,
+def measured_union(
+    centres: Centres,
+    pieces: Pieces,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Measures:
-    """Return the measures of the union of balls of squared radii ``weights + power``.
+    """Return the measures of a union of discs or balls.
 
     Parameters
     ----------
-    points : (n, 3) float64, C-contiguous
-    weights : (n,) float64 or None
-        None means 0.
-    power : float
-    simplices : tuple of (E, 2), (F, 3), (T, 4) int32
-        Edges, triangles, tetrahedra.
-    triangle_edges : (F, 3) int32
-    triangle_tetrahedra : (F, 2) int32
-    tetrahedron_triangles : (T, 4) int32
-    has : tuple of (n,), (E,), (F,), (T,) bool
-        Which points and simplices the alpha complex at `power` has.
-    hollow : (T,) int32
-        The void of the complex that each tetrahedron lies in, below zero for none.
-    void_count : int
+    centres : Centres
+    pieces : Pieces
     threads : int, optional
     progress : callable, optional
 
     Returns
     -------
-    volume : float
-    volumes, surface_areas : (n,) float64
+    content : float
+        Area in the plane, volume in space.
+    contents, borders : (n,) float64
         Of each ball in its power cell; of its part of the boundary.
-    void_volumes, void_surface_areas : (void_count,) float64
+    hole_contents, hole_borders : (hole_count,) float64
     """
+    kernel = _core.union2 if centres.high.shape[1] == 2 else _core.union3
     threads = resolve_threads(threads)
     _check_progress(progress)
-    edges, triangles, tetrahedra = simplices
-    volume, *arrays = _core.union3(
-        edges,
-        triangles,
-        triangle_edges,
-        triangle_tetrahedra,
-        tetrahedra,
-        tetrahedron_triangles,
-        has,
-        hollow,
-        void_count,
-        points,
-        weights,
-        power,
+    content, *arrays = kernel(
+        centres.high,
+        centres.low,
+        centres.weights,
+        centres.rows,
+        centres.power,
+        pieces.simplices,
+        pieces.sides,
+        pieces.has,
+        pieces.cofaces,
+        pieces.holes,
+        pieces.hole_count,
         threads,
         progress,
     )
-    volumes, surface_areas, void_volumes, void_areas = map(read_only, arrays)
-    return volume, volumes, surface_areas, void_volumes, void_areas
+    contents, borders, hole_contents, hole_borders = map(read_only, arrays)
+    return content, contents, borders, hole_contents, hole_borders

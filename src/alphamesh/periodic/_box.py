@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,15 @@ from alphamesh.points import coordinate_error, last_digits
 if TYPE_CHECKING:
     from alphamesh._arrays import FloatArray, IntArray, KindArray
 
-__all__ = ["BoxCloud", "Copies", "as_periods", "box_cloud", "wrapped_points"]
+__all__ = [
+    "BoxCloud",
+    "Copies",
+    "Placed",
+    "as_periods",
+    "box_cloud",
+    "placed",
+    "wrapped_points",
+]
 
 # Exact sums of products of six coordinates reach from 2^100 each down to 2^-170.
 _TOP, _BOTTOM = 100, -170
@@ -163,9 +171,52 @@ class BoxCloud(Record):
         rows : (c,) int32
         offsets : (c, 3) int8
         """
+        place = Placed(self.anchors, self.shifts, self.periods, self.exponent, self.unit)
+        return Copies(rows, offsets, *place.at(rows, offsets))
+
+
+class Placed(NamedTuple):
+    """Where points of a box lie, exactly; see :class:`BoxCloud`."""
+
+    anchors: FloatArray
+    shifts: KindArray
+    periods: FloatArray
+    exponent: int
+    unit: float
+
+    def at(self, rows: IntArray, offsets: KindArray) -> tuple[FloatArray, FloatArray]:
+        """Return copies of points in other boxes, as sums, the first rounded.
+
+        Parameters
+        ----------
+        rows : (c,) int32
+        offsets : (c, 3) int8
+            -1, 0 or 1.
+
+        Returns
+        -------
+        high, low : (c, 3) float64
+        """
         multiples = self.shifts.take(rows, axis=0) + offsets
-        high, low = _two_sum(self.anchors.take(rows, axis=0), multiples * self.periods)
-        return Copies(rows, offsets, high, low)
+        return _two_sum(self.anchors.take(rows, axis=0), multiples * self.periods)
+
+
+def placed(points: FloatArray, periods: tuple[float | None, ...]) -> Placed:
+    """Put points into a periodic box, without rounding.
+
+    Parameters and errors are those of :func:`box_cloud`.
+    """
+    if not np.isfinite(points).all():
+        raise coordinate_error(points)
+    sides = np.array([0.0 if side is None else side for side in periods])
+    anchors = np.zeros((len(points), _THREE))
+    anchors[:, : len(sides)] = _remainders(points, sides)
+    lengths = np.zeros(_THREE)
+    lengths[: len(sides)] = sides
+    exponent, unit = _scale(anchors, lengths)
+    anchors, lengths = np.ldexp(anchors, exponent), np.ldexp(lengths, exponent)
+    shifts = ((anchors < 0) & (lengths > 0)).astype(np.int8)
+    return Placed(read_only(anchors), read_only(shifts), read_only(lengths), exponent, unit)
 
 
 def box_cloud(
@@ -189,27 +240,11 @@ def box_cloud(
     PeriodsError
         If a period is shorter than the last digit of a coordinate.
     """
-    if not np.isfinite(points).all():
-        raise coordinate_error(points)
-    sides = np.array([0.0 if side is None else side for side in periods])
-    anchors = np.zeros((len(points), _THREE))
-    anchors[:, : len(sides)] = _remainders(points, sides)
-    lengths = np.zeros(_THREE)
-    lengths[: len(sides)] = sides
-    exponent, unit = _scale(anchors, lengths)
-    anchors, lengths = np.ldexp(anchors, exponent), np.ldexp(lengths, exponent)
-    shifts = ((anchors < 0) & (lengths > 0)).astype(np.int8)
+    anchors, shifts, lengths, exponent, unit = placed(points, periods)
     if weights is not None:
         weights, unit = _scaled_weights(weights, exponent, unit)
-    return BoxCloud(
-        read_only(anchors),
-        read_only(shifts),
-        read_only(lengths),
-        _representatives(anchors, shifts * lengths, weights),
-        exponent,
-        unit,
-        weights,
-    )
+    same = _representatives(anchors, shifts * lengths, weights)
+    return BoxCloud(anchors, shifts, lengths, same, exponent, unit, weights)
 
 
 def wrapped_points(points: FloatArray, periods: tuple[float | None, ...]) -> FloatArray:

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from alphamesh._arrays import read_only
-from alphamesh.errors import ParameterError, PeriodicError
+from alphamesh.errors import DimensionError, ParameterError
+from alphamesh.periodic._cycles import box_holes, box_loops, box_voids
 from alphamesh.periodic._filtration import PeriodicFiltration
 from alphamesh.persistence import Persistence
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from alphamesh._arrays import IntArray
     from alphamesh._kernels import Progress
+    from alphamesh.periodic._cycles import PeriodicRings, PeriodicShells
 
 __all__ = ["PeriodicPersistence", "periodic_persistence"]
 
@@ -55,19 +59,63 @@ class PeriodicPersistence(Persistence):
             f"got {dimension!r}"
         )
 
-    # Cycles that may run around the box
+    # Cycles, which may run around the box
 
-    def holes(self, *_: Any) -> NoReturn:
-        """Not there in periodic boxes."""
-        raise _no_cycles("holes")
+    def holes(self, classes: ArrayLike) -> PeriodicRings:
+        """Return the rings around holes in the plane at their birth: representative cycles.
 
-    def loops(self, *_: Any) -> NoReturn:
-        """Not there in periodic boxes."""
-        raise _no_cycles("loops")
+        Parameters and errors are those of :meth:`Persistence.holes`.
 
-    def voids(self, *_: Any) -> NoReturn:
-        """Not there in periodic boxes."""
-        raise _no_cycles("voids")
+        Returns
+        -------
+        PeriodicRings
+            Of a strip that runs around the box, two that wind; else the first ring of a
+            hole runs around it, others around what lies within it.
+        """
+        if len(self.filtration.periods) != 2:
+            raise DimensionError(
+                "holes have rings around them in the plane alone; in space, see "
+                "loops(classes) and voids(classes)"
+            )
+        return box_holes(self.filtration, self.pairs[1], classes)
+
+    def loops(self, classes: ArrayLike) -> PeriodicRings:
+        """Return a short closed path for each loop at its birth: representative cycles.
+
+        Parameters and errors are those of :meth:`Persistence.loops`.
+
+        Returns
+        -------
+        PeriodicRings
+            A path may wind around the box, where that way is the shortest: it represents
+            the class up to loops that are older.
+        """
+        return box_loops(self.filtration, self.pairs[1][:, 0], classes)
+
+    def essential_loops(self) -> PeriodicRings:
+        """Return a short closed path for each loop that stays, as for :meth:`loops`.
+
+        Returns
+        -------
+        PeriodicRings
+            In the order of ``essential[1]``. All of them wind around the box, in
+            independent directions.
+        """
+        creators = self.essential[1]
+        return box_loops(self.filtration, creators, np.arange(len(creators)))
+
+    def voids(self, classes: ArrayLike) -> PeriodicShells:
+        """Return the triangles around voids at their birth: representative cycles.
+
+        Parameters and errors are those of :meth:`Persistence.voids`.
+
+        Returns
+        -------
+        PeriodicShells
+        """
+        if len(self.filtration.periods) != 3:
+            raise DimensionError("there are voids in space alone; in the plane, see holes()")
+        return box_voids(self.filtration, self.pairs[2], classes)
 
     def __repr__(self) -> str:
         lasting = [int((b < d).sum()) for b, d in zip(self.births, self.deaths, strict=True)]
@@ -75,14 +123,6 @@ class PeriodicPersistence(Persistence):
         facts = [f"{count:,} {name}" for count, name in zip(lasting, names, strict=False)]
         staying = ", ".join(str(len(rows)) for rows in self.essential)
         return f"<PeriodicPersistence: {', '.join(facts[:-1])} that end; {staying} that stay>"
-
-
-def _no_cycles(kind: str) -> PeriodicError:
-    return PeriodicError(
-        f"representative {kind} are not traced in periodic boxes, where they may run around "
-        "the box; pairs names the simplices that begin and end them, filtration.corners() "
-        "where these are"
-    )
 
 
 def periodic_persistence(
