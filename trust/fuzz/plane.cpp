@@ -377,7 +377,7 @@ void Plane::prove_nearest() {
   require(tree.boxes.size() == alphamesh::box_count(edges_.size()), "boxes are counted");
   const std::size_t m = queries_.size() / 2;
   const auto found = alphamesh::nearest2(
-      {tree.segments.data(), tree.place.data(), edges_.size(), tree.boxes.data()}, queries_.data(),
+      {tree.items.data(), tree.place.data(), edges_.size(), tree.boxes.data()}, queries_.data(),
       m, job_);
   long double size = 0;
   for (double v : cloud_.coordinates) size = std::max<long double>(size, std::fabs(v));
