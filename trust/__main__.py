@@ -30,6 +30,7 @@ __all__ = ["main"]
 _QUICK = {
     "predicates": 200_000,
     **{"clouds": 2000, "solids": 500, "weighted": 300, "weighted_solids": 100},
+    **{"boxes": 300, "solid_boxes": 150},
     **{"files": 1000, "inputs": 500},
 }
 _MARKERS = ("<!-- figures of record -->", "<!-- end of the figures -->")
@@ -50,6 +51,8 @@ def _campaigns(words: Sequence[str]) -> int:
         ("solids", "nasty clouds in space"),
         ("weighted", "nasty clouds with weights in the plane"),
         ("weighted-solids", "nasty clouds with weights in space"),
+        ("boxes", "nasty clouds in periodic boxes of the plane"),
+        ("solid-boxes", "nasty clouds in periodic boxes of space"),
         ("files", "damaged files"),
         ("inputs", "what fuzzers have found before, and so many changes of it"),
     ):
@@ -84,9 +87,13 @@ def _results(options: argparse.Namespace) -> Any:
     if options.solids:
         yield clouds.campaign(options.solids, 3, **at)
     if options.weighted:
-        yield clouds.campaign(options.weighted, 2, weighted=True, **at)
+        yield clouds.campaign(options.weighted, 2, kind="weighted", **at)
     if options.weighted_solids:
-        yield clouds.campaign(options.weighted_solids, 3, weighted=True, **at)
+        yield clouds.campaign(options.weighted_solids, 3, kind="weighted", **at)
+    if options.boxes:
+        yield clouds.campaign(options.boxes, 2, kind="boxed", **at)
+    if options.solid_boxes:
+        yield clouds.campaign(options.solid_boxes, 3, kind="boxed", **at)
     if options.files:
         yield readers.campaign(options.files, **at)
     if options.inputs:
