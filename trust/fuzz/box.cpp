@@ -235,8 +235,10 @@ struct Built {
 
   alphamesh::PeriodicBox view() const {
     const double* weight = box.weight.empty() ? nullptr : box.weight.data();
-    return {box.anchor.data(), box.shift.data(),
-            weight,            {box.period[0], box.period[1], box.period[2]},
+    return {box.anchor.data(),
+            box.shift.data(),
+            weight,
+            {box.period[0], box.period[1], box.period[2]},
             box.exponent};
   }
 };
@@ -418,14 +420,17 @@ void Proof::prove_layers() {
     for (std::size_t i = 0; i < simplices_[k].size(); ++i) {
       const Corners& c = simplices_[k][i];
       require(normal(c) == c, "vertices ascend from one that is not moved");
-      require(i == 0 || [&] {
-        const Corners& before = simplices_[k][i - 1];
-        std::vector<Id> last, rows;
-        std::vector<Move> last_moves, moves;
-        for (const Corner& v : before) last.push_back(v.row), last_moves.push_back(v.move);
-        for (const Corner& v : c) rows.push_back(v.row), moves.push_back(v.move);
-        return std::tie(last, last_moves) < std::tie(rows, moves);
-      }(), "simplices ascend by rows, then by offsets");
+      require(
+          i == 0 ||
+              [&] {
+                const Corners& before = simplices_[k][i - 1];
+                std::vector<Id> last, rows;
+                std::vector<Move> last_moves, moves;
+                for (const Corner& v : before) last.push_back(v.row), last_moves.push_back(v.move);
+                for (const Corner& v : c) rows.push_back(v.row), moves.push_back(v.move);
+                return std::tie(last, last_moves) < std::tie(rows, moves);
+              }(),
+          "simplices ascend by rows, then by offsets");
       for (std::size_t j = 0; j <= k && k > 0; ++j) {
         Corners face = c;
         face.erase(face.begin() + static_cast<std::ptrdiff_t>(j));
@@ -604,8 +609,8 @@ std::vector<std::map<Corners, double>> by_corners(const Cloud& cloud, const Buil
           const std::size_t at = 3 * static_cast<std::size_t>(c.row) + a;
           const double anchor = std::ldexp(box.anchor[at], -box.exponent);
           const double given = cloud.row(static_cast<std::size_t>(c.row))[a];
-          c.move[a] += box.shift[at] -
-                       static_cast<int>(std::lround((given - anchor) / cloud.periods[a]));
+          c.move[a] +=
+              box.shift[at] - static_cast<int>(std::lround((given - anchor) / cloud.periods[a]));
         }
         if (reversed) c.row = static_cast<Id>(cloud.n) - 1 - c.row;
       }

@@ -71,10 +71,9 @@ Measured union_of_discs(const Filtered& x, double radius, Job& job) {
   const alphamesh::Filtration2& f = *x.plane;
   const std::size_t edges = f.edge_radii.size(), triangles = f.triangle_radii.size();
   const double* weights = cloud.weights.empty() ? nullptr : cloud.weights.data();
-  const alphamesh::ComplexView2 complex{cloud.coordinates.data(), cloud.n,
-                                        f.triangles.data(),       triangles,
-                                        f.edges.data(),           edges,
-                                        f.edge_triangles.data(),  weights};
+  const alphamesh::ComplexView2 complex{
+      cloud.coordinates.data(), cloud.n, f.triangles.data(),      triangles,
+      f.edges.data(),           edges,   f.edge_triangles.data(), weights};
   const Buffer<Id> triangle_edges = alphamesh::triangle_edges2(complex, job);
   const double last = settled(cloud, values_of(f.edge_radii, f.triangle_radii), radius);
   const auto vertex = within(x.births.data(), cloud.n, radius);
