@@ -12,7 +12,8 @@ using alphamesh::Dd;
 using alphamesh::Job;
 using alphamesh::Layer;
 
-constexpr double kError = 1e-14;
+// Of values, as it is promised in the plane and in space.
+double error_in(std::size_t dimension) { return dimension == 2 ? 1e-14 : 2e-13; }
 
 class Proof {
  public:
@@ -20,6 +21,7 @@ class Proof {
       : b_(built),
         job_(job),
         d_(built.layers.size() - 1),
+        error_(error_in(cloud.dimension)),
         full_(d_ == cloud.dimension),
         g_(geometry_of(built)) {
     for (std::size_t k = 0; k <= d_; ++k) {
@@ -93,6 +95,7 @@ class Proof {
   const Built& b_;
   Job& job_;
   std::size_t d_;
+  double error_;
   bool full_;  // else nothing is told of the cells of facets
   Geometry g_;
   std::vector<std::vector<Corners>> simplices_;
@@ -241,7 +244,7 @@ void Proof::prove_values() {
       // Here all is scaled. A vertex without a weight is there from the beginning.
       claims[i].value = std::ldexp(claims[i].value, b_.box.exponent);
       claims[i].least = std::ldexp(claims[i].least, b_.box.exponent);
-      prove_value(g_, own[i].data(), k + 1, claims[i], kError);
+      prove_value(g_, own[i].data(), k + 1, claims[i], error_);
     }
   }
 }
@@ -328,7 +331,7 @@ void prove_same(const Cloud& cloud, const Built& built, const Cloud& other, bool
     auto f = found[k].begin();
     for (const auto& [corners, value] : expected[k]) {
       require(f->first == corners, "the same simplices");
-      const double slack = reversed ? 0.0 : 2 * kError * std::fabs(value);
+      const double slack = reversed ? 0.0 : 2 * error_in(cloud.dimension) * std::fabs(value);
       require(std::fabs(f->second - value) <= slack || !measurable(value), "the same values");
       ++f;
     }
