@@ -45,9 +45,16 @@ def test_nasty_clouds_are_proved(dimension):
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_nasty_clouds_with_weights_are_proved(dimension):
     # The seeds 15, 67, 102 and 125 have found filters of the check that were too sure.
-    tally, failures = clouds._batch(range(10, 130), dimension, weighted=True)
+    tally, failures = clouds._batch(range(10, 130), dimension, "weighted")
     assert failures == []
     assert tally["proved"] == 120
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_nasty_clouds_in_boxes_are_proved(dimension):
+    tally, failures = clouds._batch(range(12), dimension, "boxed")
+    assert failures == []
+    assert tally["proved"] > 8
 
 
 def test_a_failure_is_noticed(monkeypatch):

@@ -30,7 +30,8 @@ __all__ = ["main"]
 _QUICK = {
     "predicates": 200_000,
     **{"clouds": 2000, "solids": 500, "weighted": 300, "weighted_solids": 100},
-    **{"files": 1000, "inputs": 500},
+    **{"boxes": 300, "solid_boxes": 150},
+    **{"files": 1000, "inputs": 500, "sanitized": 50},
 }
 _MARKERS = ("<!-- figures of record -->", "<!-- end of the figures -->")
 
@@ -50,8 +51,11 @@ def _campaigns(words: Sequence[str]) -> int:
         ("solids", "nasty clouds in space"),
         ("weighted", "nasty clouds with weights in the plane"),
         ("weighted-solids", "nasty clouds with weights in space"),
+        ("boxes", "nasty clouds in periodic boxes of the plane"),
+        ("solid-boxes", "nasty clouds in periodic boxes of space"),
         ("files", "damaged files"),
         ("inputs", "what fuzzers have found before, and so many changes of it"),
+        ("sanitized", "the same for the kernels, built with sanitizers"),
     ):
         parser.add_argument(f"--{name}", type=int, default=0, metavar="N", help=what)
     parser.add_argument("--quick", action="store_true", help="some of each")
@@ -79,19 +83,23 @@ def _results(options: argparse.Namespace) -> Any:
     at = {"first": options.first, "processes": options.processes}
     if options.predicates:
         yield from predicates.campaign(options.predicates, seed=options.first + 1)
-    if options.clouds:
-        yield clouds.campaign(options.clouds, 2, **at)
-    if options.solids:
-        yield clouds.campaign(options.solids, 3, **at)
-    if options.weighted:
-        yield clouds.campaign(options.weighted, 2, weighted=True, **at)
-    if options.weighted_solids:
-        yield clouds.campaign(options.weighted_solids, 3, weighted=True, **at)
+    for count, dimension, kind in (
+        (options.clouds, 2, ""),
+        (options.solids, 3, ""),
+        (options.weighted, 2, "weighted"),
+        (options.weighted_solids, 3, "weighted"),
+        (options.boxes, 2, "boxed"),
+        (options.solid_boxes, 3, "boxed"),
+    ):
+        if count:
+            yield clouds.campaign(count, dimension, kind=kind, **at)
     if options.files:
         yield readers.campaign(options.files, **at)
     if options.inputs:
         yield run.replay_core(options.inputs)
         yield run.replay_readers(options.inputs)
+    if options.sanitized:
+        yield run.replay_core(options.sanitized, sanitized=True)
 
 
 def _fuzz(words: Sequence[str]) -> int:

@@ -14,14 +14,19 @@ import numpy as np
 
 import alphamesh as am
 from alphamesh import check
-from alphamesh.errors import CoordinateRangeError
+from alphamesh.errors import CoordinateRangeError, PeriodsError
 
-__all__ = ["FAMILIES", "campaign", "cloud", "weights"]
+__all__ = ["FAMILIES", "campaign", "cloud", "sides", "weights"]
 
 Points = np.ndarray[Any, np.dtype[np.float64]]
 Family = Callable[[np.random.Generator, int, int], Points]
 
 _MOST = 24
+_NAMES = {
+    "": "clouds in {}D",
+    "weighted": "weighted clouds in {}D",
+    "boxed": "periodic clouds in {}D",
+}
 
 
 def _lattice(rng: np.random.Generator, n: int, d: int) -> Points:
@@ -130,10 +135,41 @@ def weights(seed: int, points: Points) -> Points:
     return np.ascontiguousarray(kinds[int(rng.integers(len(kinds)))])
 
 
-def _prove(seed: int, dimension: int, weighted: bool) -> str:
+def sides(seed: int, points: Points) -> tuple[float | None, ...]:
+    """Return the side lengths of a box for the points of a seed, None where it is open."""
+    rng = np.random.default_rng([seed, points.shape[1], 2])
+    size = 2.0 ** np.frexp(np.abs(points).max(initial=0.0))[1]
+    if not 0 < size < np.inf:
+        size = 1.0
+    shares = rng.choice([0.25, 1 / 3, 0.5, 1.0, 1.1, 2.0], points.shape[1])
+    open_ones = rng.random(points.shape[1]) < 0.2
+    open_ones[int(rng.integers(points.shape[1]))] = False
+    return tuple(
+        None if is_open else float(size * share)
+        for share, is_open in zip(shares, open_ones, strict=True)
+    )
+
+
+def _prove_box(seed: int, dimension: int) -> str:
+    """Build and check one periodic box, with weights if its seed is odd."""
+    points = cloud(seed, dimension)[1]
+    given = weights(seed, points) if seed % 2 else None
+    try:
+        box = am.AlphaComplex(
+            points, weights=given, periods=sides(seed, points), threads=1 + seed % 3
+        )
+    except (CoordinateRangeError, PeriodsError):
+        return "refused"
+    check.check_periodic(box.filtration)
+    return "proved"
+
+
+def _prove(seed: int, dimension: int, kind: str) -> str:
     """Build and check one cloud; return what came of it."""
+    if kind == "boxed":
+        return _prove_box(seed, dimension)
     _, points = cloud(seed, dimension)
-    given = weights(seed, points) if weighted else None
+    given = weights(seed, points) if kind == "weighted" else None
     try:
         cx = am.AlphaComplex(points, weights=given, threads=1 + seed % 3)
     except CoordinateRangeError:
@@ -145,18 +181,16 @@ def _prove(seed: int, dimension: int, weighted: bool) -> str:
     return "proved"
 
 
-def _batch(
-    seeds: range, dimension: int, weighted: bool = False
-) -> tuple[Counter[str], list[str]]:
+def _batch(seeds: range, dimension: int, kind: str = "") -> tuple[Counter[str], list[str]]:
     tally: Counter[str] = Counter()
     failures = []
     for seed in seeds:
         try:
-            tally[_prove(seed, dimension, weighted)] += 1
+            tally[_prove(seed, dimension, kind)] += 1
         except Exception as error:
             tally["failed"] += 1
-            kind = "weighted, " if weighted else ""
-            failures.append(f"{kind}dimension {dimension}, seed {seed}: {error!r}")
+            which = f"{kind}, " if kind else ""
+            failures.append(f"{which}dimension {dimension}, seed {seed}: {error!r}")
     return tally, failures
 
 
@@ -164,12 +198,23 @@ def campaign(  # noqa: PLR0913 (which clouds, and how they are divided)
     count: int,
     dimension: int,
     *,
-    weighted: bool = False,
+    kind: str = "",
     first: int = 0,
     processes: int = 1,
     size: int = 500,
 ) -> dict[str, Any]:
     """Prove many clouds; a process that dies ends the campaign with an error.
+
+    Parameters
+    ----------
+    count, dimension : int
+    kind : str
+        Empty for clouds as they are, or ``"weighted"``, or ``"boxed"``: in periodic boxes,
+        every other one weighted.
+    first : int
+        The first seed.
+    processes, size : int
+        How many processes take so many seeds at a time.
 
     Returns
     -------
@@ -182,7 +227,7 @@ def campaign(  # noqa: PLR0913 (which clouds, and how they are divided)
     ]
     tally: Counter[str] = Counter()
     failures: list[str] = []
-    work = partial(_batch, dimension=dimension, weighted=weighted)
+    work = partial(_batch, dimension=dimension, kind=kind)
     with multiprocessing.get_context("spawn").Pool(processes) as pool:
         for found, messages in pool.imap_unordered(work, batches):
             tally.update(found)
@@ -190,7 +235,7 @@ def campaign(  # noqa: PLR0913 (which clouds, and how they are divided)
             for message in messages:
                 print(message, file=sys.stderr)
     return {
-        "campaign": f"{'weighted ' if weighted else ''}clouds in {dimension}D",
+        "campaign": _NAMES[kind].format(dimension),
         "first": first,
         "cases": count,
         "proved": tally["proved"],

@@ -20,10 +20,12 @@ tests=("$@")
 if ((${#tests[@]} == 0)); then
   # All that calls the kernels; of data races, what starts threads.
   names=(core3 delaunay2 delaunay3 find2 frame2 hull2 interrupt2 invariance2 persistence2)
-  names+=(persistence3 pressure queries3 regular2 regular3 restricted2 sheet3 surface3)
+  names+=(periodic persistence3 pressure queries3 regular2 regular3 restricted2 sheet3 surface3)
+  names+=(tiles_core tiles_space unions)
   if [[ $kind == address ]]; then
-    names+=(clip2 filtration2 filtration3d nasty_space nerve2 polygons predicates2 queries)
-    names+=(regions restricted_paths2 voronoi2)
+    names+=(clip2 filtration2 filtration3d nasty_space nerve2 periodic_persistence)
+    names+=(periodic_weighted polygons predicates2 queries regions restricted_paths2 tiles)
+    names+=(unions_degenerate unions_weighted voronoi2)
   fi
   tests=("${names[@]/#/tests/test_}")
   tests=("${tests[@]/%/.py}")

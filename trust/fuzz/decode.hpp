@@ -36,7 +36,7 @@ struct Cloud {
   bool again = false;      // build it once more, in reverse and with one thread
   std::size_t choice = 0;  // which value of the filtration is the radius
   std::vector<double> coordinates;
-  std::vector<double> weights;     // empty for a cloud without
+  std::vector<double> weights;  // empty for a cloud without
   bool periodic = false;
   double periods[3] = {0, 0, 0};  // of a periodic cloud, zero where it is open
 

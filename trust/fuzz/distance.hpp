@@ -11,10 +11,8 @@ namespace trust {
 // From p to the segment from a to b, in the plane.
 inline long double distance(const Vector<long double>& p, const Vector<long double>& a,
                             const Vector<long double>& b) {
-  const long double x = b[0] - a[0],
-                    y = b[1] - a[1];
-  const long double u = p[0] - a[0],
-                    v = p[1] - a[1];
+  const long double x = b[0] - a[0], y = b[1] - a[1];
+  const long double u = p[0] - a[0], v = p[1] - a[1];
   const long double square = x * x + y * y;
   const long double t = square > 0 ? std::min(1.0L, std::max(0.0L, (u * x + v * y) / square)) : 0;
   return std::hypot(u - t * x, v - t * y);

@@ -84,9 +84,8 @@ class Geometry {
 
   // Places that no double holds, in units of 2^-shift, and rounded, by some units of the last
   // place of `size`. With weights for each, or none.
-  Geometry(const std::vector<Vector<Wide>>& places,
-           const std::vector<Vector<long double>>& rounded, long double size,
-           const std::vector<double>& weights, int shift)
+  Geometry(const std::vector<Vector<Wide>>& places, const std::vector<Vector<long double>>& rounded,
+           long double size, const std::vector<double>& weights, int shift)
       : shift_(shift), size_(size), plain_(rounded), wide_(places) {
     weight(weights);
   }
@@ -94,7 +93,9 @@ class Geometry {
   const Vector<Wide>& wide(Id i) const { return wide_[static_cast<std::size_t>(i)]; }
   const Vector<long double>& plain(Id i) const { return plain_[static_cast<std::size_t>(i)]; }
   bool weighted() const { return !plain_weight_.empty(); }
-  double weight(Id i) const { return weighted() ? plain_weight_[static_cast<std::size_t>(i)] : 0.0; }
+  double weight(Id i) const {
+    return weighted() ? plain_weight_[static_cast<std::size_t>(i)] : 0.0;
+  }
 
   // Lexicographically; weights do not count.
   bool before(Id a, Id b) const {
@@ -223,7 +224,8 @@ class Geometry {
       const auto u = step<R>(p[1], p[0]);
       if (k == 2) return lift<R>(p[1], p[0]) * dot(u, w) - height * dot(u, u);
       const auto v = step<R>(p[2], p[0]), n = cross(u, v);
-      const R along = lift<R>(p[1], p[0]) * dot(cross(v, n), w) + lift<R>(p[2], p[0]) * dot(cross(n, u), w);
+      const R along =
+          lift<R>(p[1], p[0]) * dot(cross(v, n), w) + lift<R>(p[2], p[0]) * dot(cross(n, u), w);
       return along - height * dot(n, n);
     });
   }

@@ -163,9 +163,8 @@ void Plane::prove_filtration() {
 
 void Plane::prove_persistence() {
   const std::vector<double> births = births_of(built_);
-  const auto pairs =
-      alphamesh::persistence2(view_, g_.weighted() ? births.data() : nullptr,
-                              f_.triangle_radii.data(), f_.edge_radii.data(), job_);
+  const auto pairs = alphamesh::persistence2(view_, g_.weighted() ? births.data() : nullptr,
+                                             f_.triangle_radii.data(), f_.edge_radii.data(), job_);
   std::vector<double> values;
   for (Id v : vertices_) values.push_back(births[static_cast<std::size_t>(v)]);
   std::vector<Id> number(cloud_.n, -1);
@@ -376,9 +375,9 @@ void Plane::prove_nearest() {
       alphamesh::segment_tree2(cloud_.coordinates.data(), f_.edges.data(), edges_.size(), job_);
   require(tree.boxes.size() == alphamesh::box_count(edges_.size()), "boxes are counted");
   const std::size_t m = queries_.size() / 2;
-  const auto found = alphamesh::nearest2(
-      {tree.segments.data(), tree.place.data(), edges_.size(), tree.boxes.data()}, queries_.data(),
-      m, job_);
+  const auto found =
+      alphamesh::nearest2({tree.items.data(), tree.place.data(), edges_.size(), tree.boxes.data()},
+                          queries_.data(), m, job_);
   long double size = 0;
   for (double v : cloud_.coordinates) size = std::max<long double>(size, std::fabs(v));
   for (std::size_t q = 0; q < m; ++q) {

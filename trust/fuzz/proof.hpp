@@ -63,7 +63,8 @@ inline std::vector<Id> proved_vertices(const Geometry& g, std::size_t n,
     const bool vertex = std::binary_search(vertices.begin(), vertices.end(), i);
     if (!vertex && (stands == i || g.weight(i) < g.weight(stands))) expected.push_back(i);
   }
-  require(expected == std::vector<Id>(hidden.data(), hidden.data() + hidden.size()), "hidden rows are told");
+  require(expected == std::vector<Id>(hidden.data(), hidden.data() + hidden.size()),
+          "hidden rows are told");
   return vertices;
 }
 
@@ -259,7 +260,8 @@ inline void prove_triangulation(const Geometry& g, const std::vector<Id>& places
     const auto at = std::find_if(triangles.begin(), triangles.end(), holds);
     require(at != triangles.end(), "hidden points lie in a triangle");
     const auto [a, b, c] = *at;
-    const int s = g.turn(a, b, c) > 0 ? g.in_circle_or_out(a, b, c, h) : g.in_circle_or_out(b, a, c, h);
+    const int s =
+        g.turn(a, b, c) > 0 ? g.in_circle_or_out(a, b, c, h) : g.in_circle_or_out(b, a, c, h);
     require(s < 0, "hidden points are lifted above it");
   }
 }

@@ -161,7 +161,7 @@ void Solid::prove_nearest() {
   require(tree.boxes.size() == alphamesh::box_count(s_.triangles.size()), "boxes are counted");
   const std::size_t m = s_.queries.size() / 3;
   const auto found = alphamesh::nearest3(
-      {tree.triangles.data(), tree.place.data(), s_.triangles.size(), tree.boxes.data()},
+      {tree.items.data(), tree.place.data(), s_.triangles.size(), tree.boxes.data()},
       s_.queries.data(), m, job_);
   const long double slack = 1e-12L * size + 1e-300L;
   for (std::size_t q = 0; q < m; ++q) {

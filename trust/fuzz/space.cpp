@@ -62,7 +62,8 @@ Built build(const Cloud& cloud, Job& job) {
 
 // When each row joins the complex.
 std::vector<double> births_of(const Built& built) {
-  return trust::births_of(built.n, built.representative, built.vertices.vertices, built.vertices.radii);
+  return trust::births_of(built.n, built.representative, built.vertices.vertices,
+                          built.vertices.radii);
 }
 
 class Space {
@@ -244,11 +245,12 @@ void Space::prove_persistence() {
             "triangles lie opposite to the vertices of tetrahedra");
   }
   const std::vector<double> births = births_of(built_);
-  const auto pairs = alphamesh::persistence3(
-      {cloud_.n, g_.weighted() ? births.data() : nullptr, f_.edges.data(), f_.edge_radii.data(), edges_.size(),
-       triangle_edges.data(), f_.triangle_tetrahedra.data(), f_.triangle_radii.data(),
-       triangles_.size(), f_.tetrahedron_radii.data(), tetrahedra_.size()},
-      job_);
+  const auto pairs =
+      alphamesh::persistence3({cloud_.n, g_.weighted() ? births.data() : nullptr, f_.edges.data(),
+                               f_.edge_radii.data(), edges_.size(), triangle_edges.data(),
+                               f_.triangle_tetrahedra.data(), f_.triangle_radii.data(),
+                               triangles_.size(), f_.tetrahedron_radii.data(), tetrahedra_.size()},
+                              job_);
   std::vector<double> values;
   for (Id v : vertices_) values.push_back(births[static_cast<std::size_t>(v)]);
   std::vector<Id> number(cloud_.n, -1);
