@@ -52,9 +52,10 @@ def test_nasty_clouds_with_weights_are_proved(dimension):
 
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_nasty_clouds_in_boxes_are_proved(dimension):
-    tally, failures = clouds._batch(range(12), dimension, "boxed")
+    # The last ones have found a check that refused weights which were not needed.
+    tally, failures = clouds._batch([*range(12), 36_651, 44_035], dimension, "boxed")
     assert failures == []
-    assert tally["proved"] > 8
+    assert tally["proved"] > 10
 
 
 def test_a_failure_is_noticed(monkeypatch):

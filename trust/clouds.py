@@ -6,7 +6,7 @@ import multiprocessing
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any
 
@@ -181,7 +181,7 @@ def _prove(seed: int, dimension: int, kind: str) -> str:
     return "proved"
 
 
-def _batch(seeds: range, dimension: int, kind: str = "") -> tuple[Counter[str], list[str]]:
+def _batch(seeds: Iterable[int], dimension: int, kind: str = "") -> tuple[Counter[str], list[str]]:
     tally: Counter[str] = Counter()
     failures = []
     for seed in seeds:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alphamesh._kernels.periodic import periodic_check
+from alphamesh._weights import equal_weight
 from alphamesh.check._tools import check_table, require
 from alphamesh.errors import InvalidResultError
 from alphamesh.periodic import as_periods
@@ -118,7 +119,11 @@ def _check_facets(result: PeriodicFiltration) -> None:
     require(found == (cells >= 0).sum(axis=1), "facet_cells: not those")
     if result.periodic.all():
         require(found == 2, "facet_cells: a facet of a torus with one cell")
-    box = box_cloud(result.points, result.periods, result.weights)
+    # Equal weights change no simplex, and need not be in the range of exact arithmetic.
+    weights = result.weights
+    if weights is not None and equal_weight(weights) is not None:
+        weights = None
+    box = box_cloud(result.points, result.periods, weights)
     offsets = np.zeros((*result.simplices[d].shape, 3), dtype=np.int8)
     offsets[:, :, : result.points.shape[1]] = result.offsets[d]
     verdict = periodic_check(
