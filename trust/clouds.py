@@ -181,7 +181,9 @@ def _prove(seed: int, dimension: int, kind: str) -> str:
     return "proved"
 
 
-def _batch(seeds: Iterable[int], dimension: int, kind: str = "") -> tuple[Counter[str], list[str]]:
+def _batch(
+    seeds: Iterable[int], dimension: int, kind: str = ""
+) -> tuple[Counter[str], list[str]]:
     tally: Counter[str] = Counter()
     failures = []
     for seed in seeds:
