@@ -169,8 +169,9 @@ bool Measurer::measure_plainly<3>(const Corner* c, Measure* out) const {
   const double bound = 640.0 * kEps * std::sqrt(product_sq) * (most * std::sqrt(most));
   out->attached = 0;
   for (unsigned k = 0; k < 4; ++k) {
-    if (!(std::fabs(side[k]) > bound)) return false;
-    out->attached |= (side[k] < 0.0 ? 1u : 0u) << k;
+    const double sign = side[k];
+    if (!(std::fabs(sign) > bound)) return false;
+    if (sign < 0.0) out->attached |= 1u << k;
   }
   out->radius = unscale_ * std::sqrt(radius_sq);
   return true;
