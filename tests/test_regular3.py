@@ -320,4 +320,4 @@ def test_campaigns_of_weighted_clouds():
     from trust.clouds import _prove
 
     for seed in (272, 295, 316, 393, 492, 691, 716, 767, 865, 906, 933):
-        assert _prove(seed, 3, weighted=True) == "proved"
+        assert _prove(seed, 3, "weighted") == "proved"
