@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import struct
 from importlib import import_module
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def refuse_packed(source: Source, file: BinaryIO, start: int) -> None:
         file.seek(begin + head)
         sizes = file.read(4 * layers)
         short = len(sizes) < 4 * layers or end > table
-        if begin < end and (short or sum(struct.unpack(f"<{layers}I", sizes)) > end - begin):
+        if short or sum(struct.unpack(f"<{layers}I", sizes)) > end - begin:
             raise _damaged(source)
 
 
@@ -99,7 +99,7 @@ def _table_place(source: Source, file: BinaryIO, start: int) -> int:
 def _chunks(
     source: Source, file: BinaryIO, start: int, packing: _Packing
 ) -> Iterator[tuple[int, int]]:
-    """Return where each chunk begins and ends; nothing without lazrs."""
+    """Return where each chunk of some points begins and ends; nothing without lazrs."""
     try:
         lazrs: Any = import_module("lazrs")
     except ImportError:
@@ -112,10 +112,8 @@ def _chunks(
         if not isinstance(error, Exception) and type(error).__name__ != "PanicException":
             raise
         raise _damaged(source) from error
-    places = [start + 8]
-    for _, size in table:
-        places.append(places[-1] + size)
-    return pairwise(places)
+    places = list(accumulate((size for _, size in table), initial=start + 8))
+    return (place for place, (points, _) in zip(pairwise(places), table, strict=True) if points)
 
 
 def _packing(file: BinaryIO) -> _Packing | None:
