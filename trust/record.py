@@ -142,9 +142,19 @@ def table(record: Record) -> str:
             ],
         ),
         _rows(
-            ("fuzzer", "inputs", "minutes of a processor", "places reached", "failures left"),
+            (
+                "fuzzer",
+                "inputs",
+                "minutes",
+                "of a processor",
+                "places reached",
+                "failures left",
+            ),
             [
-                (name, f["cases"], round(f["cpu_seconds"] / 60), f["places"], f["failed"])
+                (
+                    *(name, f["cases"], round(f["seconds"] / 60)),
+                    *(round(f["cpu_seconds"] / 60), f["places"], f["failed"]),
+                )
                 for name, f in record.items()
                 if "cpu_seconds" in f
             ],
