@@ -73,6 +73,8 @@ def test_the_slider_changes_the_picture(visit):
     assert visit.picture() != before
     entry = visit.page.get_by_label("Radius, as a number")
     entry.fill("5")
+    visit.page.evaluate("alphamesh.drawNow()")  # as the frame that was waiting does
+    assert entry.input_value() == "5"
     entry.press("Enter")
     assert visit.radius == 5
     assert visit.picture() == before

@@ -33,8 +33,12 @@ export class Bar {
       class: "radius",
       autocomplete: "off",
       "aria-label": "Radius, as a number",
+      input: () => (this.typing = true),
       change: () => this._enter(),
+      blur: () => (this.typing = false),
     });
+    // Whether the number is being changed: what is shown meanwhile leaves it alone.
+    this.typing = false;
     this.element = element(
       "div",
       { class: "bar", role: "group", "aria-label": "Radius" },
@@ -90,7 +94,9 @@ export class Bar {
   _enter() {
     const radius = readRadius(this.entry.value, this.app.signed);
     this.entry.setAttribute("aria-invalid", String(radius === null));
-    if (radius !== null) this.app.set(radius);
+    if (radius === null) return;
+    this.typing = false;
+    this.app.set(radius);
   }
 
   /**
@@ -102,14 +108,15 @@ export class Bar {
     this.slider.value = String(Math.round(share * STEPS));
     this.slider.setAttribute("aria-valuetext", sentence);
     this.slider.style.setProperty("--share", String(share));
-    if (this.entry.ownerDocument.activeElement !== this.entry || !this._edited(radius)) {
+    const focused = this.entry.ownerDocument.activeElement === this.entry;
+    if (!this.typing && !(focused && this._says(radius))) {
       this.entry.value = number(radius, 6);
       this.entry.setAttribute("aria-invalid", "false");
     }
   }
 
   /** @param {number} radius */
-  _edited(radius) {
+  _says(radius) {
     return readRadius(this.entry.value, this.app.signed) === radius;
   }
 
