@@ -125,6 +125,7 @@ def test_record_becomes_tables():
     fuzzed = {
         "campaign": "kernels",
         "cases": 9000,
+        "seconds": 600,
         "cpu_seconds": 150,
         "places": 1234,
         "failed": 0,
@@ -139,7 +140,7 @@ def test_record_becomes_tables():
     )
     assert "| `orient` | 1,000 | 7 | 30 | 20 | 0 |" in text
     assert "| clouds in 2D | 5,000 | 4,990 | 10 | 0 |" in text
-    assert "| kernels | 9,000 | 2 | 1,234 | 0 |" in text
+    assert "| kernels | 9,000 | 10 | 2 | 1,234 | 0 |" in text
     assert "| lines of C++ | 3,000 | 2,850 | 95.0 % |" in text
 
 
