@@ -340,3 +340,13 @@ def test_commands(tmp_path):
     failed = run(app, ["tiles", "merge", out, "-o", str(tmp_path / "outline.geojson")])
     assert failed.exit_code != 0
     assert "open clouds alone" in failed.output
+
+
+def test_a_box_that_is_refused_leaves_nothing_behind(tmp_path):
+    rng = np.random.default_rng(2)
+    np.save(tmp_path / "cloud.npy", rng.random((50, 3)))
+    for weights in (None, 2):  # weights are read before the largest ball is known
+        data = tiles.dataset(tmp_path / "cloud.npy", weights=weights, periods=(1, 1))
+        with pytest.raises(PeriodsError, match="at least 8 radii"):
+            tiles.run(data, 0.3, tmp_path / "tiles", threads=1)
+        assert [path.name for path in tmp_path.iterdir()] == ["cloud.npy"]

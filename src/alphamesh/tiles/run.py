@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alphamesh.errors import ParameterError
+from alphamesh.errors import ParameterError, PeriodsError
 from alphamesh.tiles.box_pieces import solve_in_box
 from alphamesh.tiles.boxes import check_box, plan_in_box, spread_in_box
 from alphamesh.tiles.complex import TiledComplex
@@ -110,7 +110,11 @@ def run(  # noqa: PLR0913 (each is a choice of the user's)
     _begin(store, data, radius, int(tile_points), overwrite=overwrite)
     told = _unheard if progress is None else progress
     with workers_of(cluster, processes, threads) as workers:
-        _plan(store, data, int(tile_points), workers, told)
+        try:
+            _plan(store, data, radius, int(tile_points), workers, told)
+        except PeriodsError:
+            shutil.rmtree(store.folder)  # holds what was just begun, and nothing else
+            raise
         tiling = _solve(store, data, radius, workers, told)
     parts = [store.part(tile)[0] for tile in range(len(tiling))]
     store.write_summary(merge(parts, radius, periodic=data.periods is not None)[0])
@@ -169,8 +173,13 @@ def _begin(
     store.write_manifest(wanted)
 
 
-def _plan(
-    store: Store, data: Dataset, tile_points: int, workers: Workers, told: Progress
+def _plan(  # noqa: PLR0913, PLR0917 (what a run is given)
+    store: Store,
+    data: Dataset,
+    radius: float,
+    tile_points: int,
+    workers: Workers,
+    told: Progress,
 ) -> None:
     if store.plan() is not None:
         return
@@ -187,6 +196,8 @@ def _plan(
     if data.periods is None:
         tiling = plan(sample, tiles)
     else:
+        if weights is not None:
+            check_box(data.periods, weights.reach(radius))
         tiling = plan_in_box(sample, tiles, data.periods)
     store.write_plan(tiling, first_rows, weights)
 
@@ -196,8 +207,6 @@ def _solve(
 ) -> Tiling:
     tiling = store.plan()
     assert tiling is not None
-    if data.periods is not None:
-        check_box(data.periods, _reach(store, radius))
     done = dict(workers.each(partial(_has_tile, folder=store.folder), range(len(tiling))))
     tiles = [tile for tile in range(len(tiling)) if not done[tile]]
     if tiles:
