@@ -8,7 +8,6 @@ that stands, which is timed as well. Ends with the promised ratios, pass or fail
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import import_module
 from statistics import median
@@ -17,7 +16,7 @@ from typing import TypeAlias
 import numpy as np
 
 from benchmarks.clouds import Points
-from benchmarks.timing import Rounds, interleave
+from benchmarks.contest import measured, options_of
 from benchmarks.verdict import Criterion
 
 __all__ = ["main"]
@@ -33,22 +32,13 @@ _DENSITY = 0.1
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; 1 if a promise is broken."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.unions")
-    parser.add_argument("--size", type=int, default=100_000)
-    parser.add_argument("--repeats", type=int, default=5, help="turns of each contestant")
-    parser.add_argument("--budget", type=float, default=60.0, help="seconds for each")
-    parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--tiny", action="store_true", help="1,000 balls, in seconds")
-    options = parser.parse_args(arguments)
-    if options.tiny:
-        options.size, options.repeats, options.budget = 1_000, 2, 1.0
-    rounds = Rounds(options.repeats, 0.05 if options.tiny else 0.0, options.budget)
+    options = options_of("unions", arguments)
     criteria = []
     for name, runs in (
         ("discs", dict(_discs(options.size, options.threads))),
         ("atoms", dict(_atoms(options.size, options.threads))),
     ):
-        taken = _table(f"{options.size:,} {name}", runs, rounds)
+        taken = measured(f"{options.size:,} {name}", runs, options.rounds, _error_of(runs))
         ratio, of_minima = (
             best(taken[_UNION]) / best(taken[_FILTRATION]) for best in (median, min)
         )
@@ -116,18 +106,16 @@ def _ours(
     yield _UNION, lambda: float(getattr(union_of_balls(made, radius, threads=threads), measure))
 
 
-def _table(name: str, runs: Mapping[str, Run], rounds: Rounds) -> dict[str, list[float]]:
-    """Measure and print one union; the seconds of each turn."""
-    print(f"\n{name} (s, median and minimum; and how far peers are from ours)")
+def _error_of(runs: Mapping[str, Run]) -> Callable[[str], str]:
+    """Return what tells how far the result of a peer is from ours."""
     exact = runs[_UNION]()
-    turns = interleave(runs, rounds)
-    for key, samples in turns.samples.items():
-        if not samples:
-            print(f"{key:>22}  failed: {turns.failures[key]}")
-            continue
-        away = "" if key in (_FILTRATION, _UNION) else f"  {abs(runs[key]() / exact - 1):8.1e}"
-        print(f"{key:>22}  {median(samples):>9.4f}  {min(samples):>9.4f}{away}")
-    return {key: samples for key, samples in turns.samples.items() if samples}
+
+    def error(key: str) -> str:
+        if key in (_FILTRATION, _UNION):
+            return ""
+        return f"  {abs(runs[key]() / exact - 1):8.1e} off"
+
+    return error
 
 
 if __name__ == "__main__":

@@ -7,7 +7,6 @@ with a word. Ends with the promised ratios, pass or fail.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from importlib import import_module
@@ -17,7 +16,7 @@ from typing import TypeAlias
 import numpy as np
 
 from benchmarks.clouds import Points
-from benchmarks.timing import Rounds, interleave
+from benchmarks.contest import measured, options_of
 from benchmarks.verdict import Criterion
 
 __all__ = ["WEIGHTS", "main"]
@@ -32,20 +31,13 @@ WEIGHTS = {"few hidden": 0.5, "most hidden": 6.0}
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; 1 if a promise is broken."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.weighted")
-    parser.add_argument("--size", type=int, default=100_000)
-    parser.add_argument("--repeats", type=int, default=5, help="turns of each contestant")
-    parser.add_argument("--budget", type=float, default=60.0, help="seconds for each")
-    parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--tiny", action="store_true", help="1,000 points, in seconds")
-    options = parser.parse_args(arguments)
-    if options.tiny:
-        options.size, options.repeats, options.budget = 1_000, 2, 1.0
-    rounds = Rounds(options.repeats, 0.05 if options.tiny else 0.0, options.budget)
+    options = options_of("weighted", arguments)
     runs = dict(_contestants(options.threads))
     criteria: list[Criterion] = []
     for name, share in WEIGHTS.items():
-        taken = _table(name, runs, *_cloud(options.size, share), rounds)
+        cloud = _cloud(options.size, share)
+        contestants = {key: partial(run, *cloud) for key, run in runs.items()}
+        taken = measured(f"{name}, {options.size:,} points", contestants, options.rounds)
         criteria += _criteria(name, taken)
     print()
     for criterion in criteria:
@@ -82,21 +74,6 @@ def _gudhi() -> Run:
     return lambda points, weights: alpha_complex(
         points=points, weights=weights, precision="safe"
     ).create_simplex_tree()
-
-
-def _table(
-    name: str, runs: Mapping[str, Run], points: Points, weights: Points, rounds: Rounds
-) -> dict[str, list[float]]:
-    """Measure and print one cloud; the seconds of each turn."""
-    print(f"\n{name}, {len(points):,} points (s, median and minimum)")
-    contestants = {key: partial(run, points, weights) for key, run in runs.items()}
-    turns = interleave(contestants, rounds)
-    for key, samples in turns.samples.items():
-        if samples:
-            print(f"{key:>22}  {median(samples):>9.4f}  {min(samples):>9.4f}")
-        else:
-            print(f"{key:>22}  failed: {turns.failures[key]}")
-    return {key: samples for key, samples in turns.samples.items() if samples}
 
 
 def _criteria(name: str, taken: Mapping[str, Sequence[float]]) -> Iterator[Criterion]:
